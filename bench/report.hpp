@@ -1,0 +1,33 @@
+#pragma once
+
+#include <exception>
+#include <string>
+
+#include <benchmark/benchmark.h>
+
+#include "methods/core/error.hpp"
+
+namespace strongpoint {
+
+/// Runs the body of a benchmark; what it throws becomes the benchmark's error, and sets `failed`
+/// unless the case was skipped for a reason.
+template <class Body>
+void run_guarded(benchmark::State& state, bool& failed, const Body& body) {
+  try {
+    body();
+  } catch (const SkipCase& skipped) {
+    state.SkipWithError(skipped.what());
+  } catch (const std::exception& error) {
+    failed = true;
+    state.SkipWithError(error.what());
+  }
+}
+
+/// Adds the time per node as a counter, in seconds, and what the benchmark says of itself.
+inline void report_per_node(benchmark::State& state, double nodes, const std::string& label) {
+  state.counters["per_node"] = benchmark::Counter(
+      nodes, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.SetLabel(label);
+}
+
+}  // namespace strongpoint

@@ -1,0 +1,10 @@
+# Gmsh in Debian 12 ships no CMake package; gives the target Gmsh::Gmsh.
+find_path(Gmsh_INCLUDE_DIR gmsh.h)
+find_library(Gmsh_LIBRARY gmsh)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(Gmsh REQUIRED_VARS Gmsh_LIBRARY Gmsh_INCLUDE_DIR)
+if(Gmsh_FOUND AND NOT TARGET Gmsh::Gmsh)
+  add_library(Gmsh::Gmsh INTERFACE IMPORTED)
+  target_include_directories(Gmsh::Gmsh SYSTEM INTERFACE ${Gmsh_INCLUDE_DIR})
+  target_link_libraries(Gmsh::Gmsh INTERFACE ${Gmsh_LIBRARY})
+endif()

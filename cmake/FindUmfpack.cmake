@@ -1,0 +1,10 @@
+# SuiteSparse in Debian 12 ships no CMake package; gives the target Umfpack::Umfpack.
+find_path(Umfpack_INCLUDE_DIR umfpack.h PATH_SUFFIXES suitesparse)
+find_library(Umfpack_LIBRARY umfpack)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(Umfpack REQUIRED_VARS Umfpack_LIBRARY Umfpack_INCLUDE_DIR)
+if(Umfpack_FOUND AND NOT TARGET Umfpack::Umfpack)
+  add_library(Umfpack::Umfpack INTERFACE IMPORTED)
+  target_include_directories(Umfpack::Umfpack SYSTEM INTERFACE ${Umfpack_INCLUDE_DIR})
+  target_link_libraries(Umfpack::Umfpack INTERFACE ${Umfpack_LIBRARY})
+endif()

@@ -1,0 +1,167 @@
+#pragma once
+
+#include <cmath>
+#include <concepts>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "methods/core/condition.hpp"
+#include "methods/core/error.hpp"
+#include "methods/core/local_stencil.hpp"
+#include "methods/core/method.hpp"
+
+namespace strongpoint {
+
+/// What a kernel offers: factorise the local system of a stencil, then evaluate derivatives of the
+/// local approximation anywhere near it, all in scaled coordinates.
+template <class Kernel, int Dim>
+concept LocalKernel =
+    requires(const Kernel kernel, const LocalStencil<Dim>& stencil, typename Kernel::Workspace& work,
+             const Point<Dim>& offset, const Derivatives<Dim>& derivatives,
+             Eigen::Map<Eigen::MatrixXd> weights, Scaling scaling) {
+      { kernel.needed_nodes() } -> std::same_as<int>;
+      { kernel.factorise(stencil, work) } -> std::same_as<LocalOutcome>;
+      { kernel.evaluate(stencil, work, offset, derivatives, weights) };
+      { kernel.local_matrix(stencil, scaling) } -> std::same_as<Eigen::MatrixXd>;
+      { kernel.unsupported(derivatives) } -> std::same_as<std::string>;
+    };
+
+/// A method whose weights come from a kernel, stencil by stencil: a static loop over the anchors,
+/// parallel, with one workspace a thread and no allocation once the workspaces have grown.
+template <int Dim, class Kernel>
+  requires LocalKernel<Kernel, Dim>
+class LocalMethod : public Method<Dim> {
+ public:
+  /// What stays the same for all kernels of one method.
+  struct Traits {
+    std::string name;  ///< for messages
+    Promises promises;
+    Needs needs;
+    int stencil_size;
+    std::string default_stencil = "nearest";
+  };
+
+  LocalMethod(Kernel kernel, Traits traits)
+      : kernel_(std::move(kernel)), traits_(std::move(traits)) {}
+
+  const Kernel& kernel() const { return kernel_; }
+  Needs needs() const override { return traits_.needs; }
+  Promises promises() const override { return traits_.promises; }
+  int stencil_size() const override { return traits_.stencil_size; }
+  std::string default_stencil() const override { return traits_.default_stencil; }
+  std::string unsupported(const Derivatives<Dim>& derivatives) const override {
+    return kernel_.unsupported(derivatives);
+  }
+  Weights weights(const Sites<Dim>& sites, const Stencils& stencils,
+                  const Derivatives<Dim>& derivatives) const override;
+  std::vector<double> condition(const Sites<Dim>& sites, std::span<const int> anchors,
+                                const Stencils& stencils, Scaling scaling,
+                                ConditionNorm norm) const override;
+
+ private:
+  Kernel kernel_;
+  Traits traits_;
+
+  /// Throws CaseError when something that the method needs was not prepared.
+  void check_needs(const Sites<Dim>& sites) const {
+    if (traits_.needs.volumes && sites.volumes.size() != sites.node_count()) {
+      throw CaseError(traits_.name + ": cell volumes are needed but the sites hold none");
+    }
+  }
+  /// Writes the weights of all points of one anchor.
+  LocalOutcome fill(const Sites<Dim>& sites, const Stencils& stencils, int anchor, int first_point,
+                    const Derivatives<Dim>& derivatives, LocalStencil<Dim>& local,
+                    typename Kernel::Workspace& work, Weights& weights) const;
+};
+
+/// An empty pattern for the weights of all points: each row is the stencil of the point's anchor.
+template <int Dim>
+Weights weights_on_stencils(const Sites<Dim>& sites, const Stencils& stencils, int per_entry) {
+  Weights weights;
+  weights.per_entry = per_entry;
+  weights.offsets.reserve(sites.point_anchor.size() + 1);
+  for (int anchor : sites.point_anchor) {
+    weights.offsets.push_back(weights.offsets.back() +
+                              static_cast<std::int64_t>(stencils[anchor].size()));
+  }
+  weights.columns.reserve(weights.offsets.back());
+  for (int anchor : sites.point_anchor) {
+    const std::span<const int> nodes = stencils[anchor];
+    weights.columns.insert(weights.columns.end(), nodes.begin(), nodes.end());
+  }
+  weights.values.resize(weights.offsets.back() * per_entry);
+  return weights;
+}
+
+template <int Dim, class Kernel>
+  requires LocalKernel<Kernel, Dim>
+LocalOutcome LocalMethod<Dim, Kernel>::fill(const Sites<Dim>& sites, const Stencils& stencils,
+                                            int anchor, int first_point,
+                                            const Derivatives<Dim>& derivatives,
+                                            LocalStencil<Dim>& local,
+                                            typename Kernel::Workspace& work,
+                                            Weights& weights) const {
+  LocalOutcome outcome = local.gather(sites, stencils[anchor], anchor);
+  if (outcome == LocalOutcome::ok) outcome = kernel_.factorise(local, work);
+  if (outcome != LocalOutcome::ok) return outcome;
+  for (int p = first_point; p < sites.point_count() && sites.point_anchor[p] == anchor; ++p) {
+    const Point<Dim> offset = (sites.points.col(p) - sites.anchors.col(anchor)) / local.radius;
+    Eigen::Map<Eigen::MatrixXd> row = weights.row(p);
+    kernel_.evaluate(local, work, offset, derivatives, row);
+    for (int d = 0; d < derivatives.size(); ++d) {
+      row.row(d) *= std::pow(local.radius, -order_of<Dim>(derivatives[d]));
+    }
+    if (!row.allFinite()) return LocalOutcome::not_finite;
+  }
+  return LocalOutcome::ok;
+}
+
+template <int Dim, class Kernel>
+  requires LocalKernel<Kernel, Dim>
+Weights LocalMethod<Dim, Kernel>::weights(const Sites<Dim>& sites, const Stencils& stencils,
+                                          const Derivatives<Dim>& derivatives) const {
+  check_needs(sites);
+  Weights weights = weights_on_stencils(sites, stencils, derivatives.size());
+  std::vector<LocalOutcome> outcomes(sites.anchor_count(), LocalOutcome::ok);
+  std::vector<int> first_point(sites.anchor_count(), sites.point_count());
+  for (int p = sites.point_count() - 1; p >= 0; --p) first_point[sites.point_anchor[p]] = p;
+#pragma omp parallel
+  {
+    LocalStencil<Dim> local;
+    typename Kernel::Workspace work;
+#pragma omp for schedule(dynamic, 64)
+    for (int anchor = 0; anchor < sites.anchor_count(); ++anchor) {
+      if (stencils[anchor].empty()) continue;
+      outcomes[anchor] =
+          fill(sites, stencils, anchor, first_point[anchor], derivatives, local, work, weights);
+    }
+  }
+  throw_first_failure(sites, stencils, outcomes, traits_.name, kernel_.needed_nodes());
+  return weights;
+}
+
+template <int Dim, class Kernel>
+  requires LocalKernel<Kernel, Dim>
+std::vector<double> LocalMethod<Dim, Kernel>::condition(const Sites<Dim>& sites,
+                                                        std::span<const int> anchors,
+                                                        const Stencils& stencils, Scaling scaling,
+                                                        ConditionNorm norm) const {
+  check_needs(sites);
+  std::vector<double> result(anchors.size());
+#pragma omp parallel
+  {
+    LocalStencil<Dim> local;
+#pragma omp for schedule(dynamic, 64)
+    for (std::size_t i = 0; i < anchors.size(); ++i) {
+      const LocalOutcome outcome = 
+          local.gather(sites, stencils[static_cast<int>(i)], anchors[i]);
+      const bool usable = outcome == LocalOutcome::ok;
+      result[i] = condition_number(
+          usable ? kernel_.local_matrix(local, scaling) : Eigen::MatrixXd::Zero(1, 1), norm);
+    }
+  }
+  return result;
+}
+
+}  // namespace strongpoint

@@ -1,0 +1,96 @@
+#include "methods/core/local_solvers.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace strongpoint {
+
+double* HouseholderQr::prepare(int rows, int cols) {
+  rows_ = rows;
+  cols_ = cols;
+  a_.resize(static_cast<std::size_t>(rows) * cols);
+  diagonal_.resize(cols);
+  beta_.resize(cols);
+  return a_.data();
+}
+
+void HouseholderQr::reflect(int k, double* v) const {
+  const double* reflector = a_.data() + static_cast<std::ptrdiff_t>(k) * rows_;
+  double dot = 0;
+  for (int i = k; i < rows_; ++i) dot += reflector[i] * v[i];
+  dot *= beta_[k];
+  for (int i = k; i < rows_; ++i) v[i] -= dot * reflector[i];
+}
+
+bool HouseholderQr::factorise(double tolerance) {
+  for (int k = 0; k < cols_; ++k) {
+    double* column = a_.data() + static_cast<std::ptrdiff_t>(k) * rows_;
+    double above = 0;
+    double below = 0;
+    for (int i = 0; i < k; ++i) above += column[i] * column[i];
+    for (int i = k; i < rows_; ++i) below += column[i] * column[i];
+    const double length = std::sqrt(below);
+    if (!(length > tolerance * std::sqrt(above + below))) return false;
+    diagonal_[k] = column[k] > 0 ? -length : length;
+    column[k] -= diagonal_[k];
+    beta_[k] = -1 / (diagonal_[k] * column[k]);
+    for (int j = k + 1; j < cols_; ++j) reflect(k, a_.data() + static_cast<std::ptrdiff_t>(j) * rows_);
+  }
+  return true;
+}
+
+void HouseholderQr::solve_transposed_r(std::span<double> g) const {
+  for (int k = 0; k < cols_; ++k) {
+    const double* column = a_.data() + static_cast<std::ptrdiff_t>(k) * rows_;
+    double sum = g[k];
+    for (int i = 0; i < k; ++i) sum -= column[i] * g[i];
+    g[k] = sum / diagonal_[k];
+  }
+}
+
+void HouseholderQr::apply_q(std::span<double> v) const {
+  for (int k = cols_ - 1; k >= 0; --k) reflect(k, v.data());
+}
+
+void HouseholderQr::apply_q_transposed(std::span<double> v) const {
+  for (int k = 0; k < cols_; ++k) reflect(k, v.data());
+}
+
+double* Ldlt::prepare(int n) {
+  n_ = n;
+  a_.resize(static_cast<std::size_t>(n) * n);
+  return a_.data();
+}
+
+bool Ldlt::factorise(double tolerance) {
+  for (int i = 0; i < n_; ++i) {
+    double* row = a_.data() + static_cast<std::ptrdiff_t>(i) * n_;
+    for (int j = 0; j < i; ++j) {
+      const double* other = a_.data() + static_cast<std::ptrdiff_t>(j) * n_;
+      for (int k = 0; k < j; ++k) row[j] -= row[k] * other[k];
+    }
+    const double entry = row[i];
+    for (int j = 0; j < i; ++j) {
+      const double scaled = row[j] / a_[static_cast<std::size_t>(j) * n_ + j];
+      row[i] -= row[j] * scaled;
+      row[j] = scaled;
+    }
+    const bool same_sign = row[i] * a_[0] > 0;
+    if (!same_sign || !(std::abs(row[i]) > tolerance * std::abs(entry))) return false;
+  }
+  return true;
+}
+
+void Ldlt::solve(std::span<double> b) const {
+  for (int i = 0; i < n_; ++i) {
+    const double* row = a_.data() + static_cast<std::ptrdiff_t>(i) * n_;
+    for (int j = 0; j < i; ++j) b[i] -= row[j] * b[j];
+  }
+  for (int i = n_ - 1; i >= 0; --i) {
+    const double* row = a_.data() + static_cast<std::ptrdiff_t>(i) * n_;
+    b[i] /= row[i];
+    for (int k = i + 1; k < n_; ++k) b[i] -= a_[static_cast<std::size_t>(k) * n_ + i] * b[k];
+  }
+}
+
+}  // namespace strongpoint

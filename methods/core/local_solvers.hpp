@@ -1,0 +1,48 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace strongpoint {
+
+/// Householder QR of a tall dense matrix whose storage is reused from one stencil to the next.
+class HouseholderQr {
+ public:
+  /// Storage for a (rows, cols) matrix, column after column, rows >= cols, to be filled by the caller.
+  double* prepare(int rows, int cols);
+  /// Factorises in place. False when some column lies within `tolerance`, relative to its own length,
+  /// of the span of the columns before it.
+  bool factorise(double tolerance);
+  /// Solves R^T y = g, g (cols) becoming y.
+  void solve_transposed_r(std::span<double> g) const;
+  /// v (rows) becomes Q v.
+  void apply_q(std::span<double> v) const;
+  /// v (rows) becomes Q^T v.
+  void apply_q_transposed(std::span<double> v) const;
+
+ private:
+  int rows_ = 0, cols_ = 0;
+  std::vector<double> a_;         ///< reflectors below the diagonal, R above it
+  std::vector<double> diagonal_;  ///< diagonal of R
+  std::vector<double> beta_;      ///< 2 / |v|^2 of each reflector
+
+  void reflect(int k, double* v) const;
+};
+
+/// LDL^T of a small symmetric matrix without pivoting, for definite matrices, with reused storage.
+class Ldlt {
+ public:
+  /// Storage for an (n, n) matrix, of which the lower triangle (row after row) is read.
+  double* prepare(int n);
+  /// Factorises in place. False when some pivot is below `tolerance` times its diagonal entry, or a
+  /// pivot's sign differs from the first one's.
+  bool factorise(double tolerance);
+  /// Solves A x = b, b (n) becoming x.
+  void solve(std::span<double> b) const;
+
+ private:
+  int n_ = 0;
+  std::vector<double> a_;
+};
+
+}  // namespace strongpoint

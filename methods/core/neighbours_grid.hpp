@@ -1,0 +1,218 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "methods/core/neighbours_collectors.hpp"
+
+namespace strongpoint {
+
+/// Cubic cells in row-major order with the nodes sorted by cell, coordinates as a structure of
+/// arrays. A query scans shells of cells around its own until no farther cell can hold a nearer
+/// node. Made for clouds of about even density: memory is bounded for any cloud, but a cloud that
+/// crowds into few cells costs a scan of the crowd per query.
+template <int Dim>
+class GridEngine {
+ public:
+  explicit GridEngine(const Points<Dim>& nodes) {
+    if (nodes.cols() == 0) return;
+    choose_cells(nodes);
+    sort_by_cell(nodes);
+  }
+
+  /// Offers all nodes within the collector's bound.
+  void visit(const Point<Dim>& query, CandidateCollector auto& collector) const {
+    if (nodes_.empty()) return;
+    const Cell home = cell_of(query);
+    int inner = -1;
+    int outer = first_shell(collector.expected());
+    while (true) {
+      scan_shell(query, home, inner, outer, collector);
+      const double clearance = squared_clearance(query, home, outer) * shy;
+      // An infinite clearance means that nothing is left, even when the bound is infinite too.
+      if (clearance > collector.bound() || std::isinf(clearance)) return;
+      inner = outer++;
+    }
+  }
+
+ private:
+  using Cell = std::array<int, Dim>;
+
+  /// Mean number of nodes in a cell of an even cloud: about k/3 for the usual stencils.
+  static constexpr double nodes_per_cell = 3;
+  /// Keeps round-off in the distance to a cell from hiding a node on its face.
+  static constexpr double shy = 1 - 1e-12;
+
+  Point<Dim> low_, high_;        ///< corners of the nodes' bounding box
+  Cell counts_;                  ///< cells along each direction
+  double edge_ = 1;              ///< of a cell
+  double slack_ = 0;             ///< bounds the round-off in telling the cell of a node
+  std::vector<int> cell_start_;  ///< (cells + 1) into the arrays below
+  std::vector<int> nodes_;       ///< (N) node ids by cell, ascending within a cell
+  std::array<std::vector<double>, Dim> coordinates_;  ///< (N) each, in the order of `nodes_`
+
+  void choose_cells(const Points<Dim>& nodes);
+  void sort_by_cell(const Points<Dim>& nodes);
+
+  /// The cell of a position, the nearest one when it lies outside.
+  Cell cell_of(const Point<Dim>& x) const {
+    Cell cell;
+    for (int c = 0; c < Dim; ++c) {
+      const double position = std::floor((x[c] - low_[c]) / edge_);
+      cell[c] = static_cast<int>(std::clamp(position, 0.0, counts_[c] - 1.0));
+    }
+    return cell;
+  }
+  int index_of(const Cell& cell) const {
+    int index = 0;
+    for (int c = 0; c < Dim; ++c) index = index * counts_[c] + cell[c];
+    return index;
+  }
+  /// Half width, in cells, of the block scanned first: it holds about `expected` nodes.
+  static int first_shell(int expected) {
+    const double cells = std::pow(std::max(1.0, expected / nodes_per_cell), 1.0 / Dim);
+    return static_cast<int>(std::min(1e9, (cells - 1) / 2));
+  }
+  /// Square of a distance that every node beyond the block of half width `reach` exceeds; infinite
+  /// when there is none.
+  double squared_clearance(const Point<Dim>& x, const Cell& home, int reach) const;
+  /// Square of the distance from x to a range of cells in one direction.
+  double squared_gap(const Point<Dim>& x, int c, int first, int last) const {
+    const double below = low_[c] + first * edge_ - x[c] - slack_;
+    const double above = x[c] - (low_[c] + (last + 1.0) * edge_) - slack_;
+    const double gap =
+        std::max({0.0, first > 0 ? below : 0.0, last < counts_[c] - 1 ? above : 0.0});
+    return gap * gap;
+  }
+  /// Offers the nodes in cells farther than `inner` and at most `outer` cells from `home`.
+  void scan_shell(const Point<Dim>& x, const Cell& home, int inner, int outer,
+                  CandidateCollector auto& collector) const;
+  /// Offers the nodes in cells `first` to `last` of the row that `cell` names, clipped to the grid.
+  void scan_row(const Point<Dim>& x, Cell cell, int first, int last,
+                CandidateCollector auto& collector) const;
+};
+
+template <int Dim>
+void GridEngine<Dim>::choose_cells(const Points<Dim>& nodes) {
+  low_ = nodes.rowwise().minCoeff();
+  high_ = nodes.rowwise().maxCoeff();
+  const Point<Dim> extent = high_ - low_;
+  std::array<bool, Dim> thin;
+  for (int c = 0; c < Dim; ++c) thin[c] = !(extent[c] > 0);
+  // A direction thinner than a cell gets one layer, and the cells then spread over the others.
+  for (bool again = true; again;) {
+    double log_measure = 0;
+    int directions = 0;
+    for (int c = 0; c < Dim; ++c) {
+      if (thin[c]) continue;
+      log_measure += std::log(extent[c]);
+      ++directions;
+    }
+    if (directions == 0) break;
+    const double cells = std::max(1.0, static_cast<double>(nodes.cols()) / nodes_per_cell);
+    edge_ = std::exp((log_measure - std::log(cells)) / directions);
+    again = false;
+    for (int c = 0; c < Dim; ++c) {
+      if (thin[c] || extent[c] >= edge_ || directions == 1) continue;
+      thin[c] = true;
+      again = true;
+      break;
+    }
+  }
+  for (int c = 0; c < Dim; ++c) counts_[c] = thin[c] ? 1 : static_cast<int>(extent[c] / edge_) + 1;
+  slack_ = 8 * std::numeric_limits<double>::epsilon() *
+           (low_.cwiseAbs().maxCoeff() + high_.cwiseAbs().maxCoeff());
+}
+
+template <int Dim>
+void GridEngine<Dim>::sort_by_cell(const Points<Dim>& nodes) {
+  const int count = static_cast<int>(nodes.cols());
+  int cells = 1;
+  for (int c = 0; c < Dim; ++c) cells *= counts_[c];
+  cell_start_.assign(static_cast<std::size_t>(cells) + 1, 0);
+  std::vector<int> cell(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    cell[i] = index_of(cell_of(nodes.col(i)));
+    ++cell_start_[cell[i] + 1];
+  }
+  for (int i = 0; i < cells; ++i) cell_start_[i + 1] += cell_start_[i];
+  std::vector<int> next(cell_start_.begin(), cell_start_.end() - 1);
+  nodes_.resize(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) nodes_[next[cell[i]]++] = i;
+  for (int c = 0; c < Dim; ++c) {
+    coordinates_[c].resize(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) coordinates_[c][i] = nodes(c, nodes_[i]);
+  }
+}
+
+template <int Dim>
+double GridEngine<Dim>::squared_clearance(const Point<Dim>& x, const Cell& home, int reach) const {
+  // A query outside the box is at least this far away from any node, per direction.
+  Point<Dim> outside;
+  for (int c = 0; c < Dim; ++c) outside[c] = std::max({0.0, low_[c] - x[c], x[c] - high_[c]});
+  const double all_outside = outside.squaredNorm();
+  double clearance = std::numeric_limits<double>::infinity();
+  for (int c = 0; c < Dim; ++c) {
+    const double others = std::max(0.0, all_outside * (1 - 1e-14) - outside[c] * outside[c]);
+    const auto beyond = [&](double gap) {
+      const double safe = std::max(0.0, gap - slack_);
+      clearance = std::min(clearance, safe * safe + others);
+    };
+    if (home[c] - reach > 0) beyond(x[c] - (low_[c] + (home[c] - reach) * edge_));
+    if (home[c] < counts_[c] - 1 - reach) beyond(low_[c] + (home[c] + reach + 1.0) * edge_ - x[c]);
+  }
+  return clearance;
+}
+
+template <int Dim>
+void GridEngine<Dim>::scan_shell(const Point<Dim>& x, const Cell& home, int inner, int outer,
+                                 CandidateCollector auto& collector) const {
+  // Rows run along the last direction; the others are counted through like the digits of a number.
+  constexpr int last = Dim - 1;
+  Cell first_cell, last_cell;
+  for (int c = 0; c < Dim; ++c) {
+    first_cell[c] = std::max(0, home[c] - outer);
+    last_cell[c] = outer > counts_[c] ? counts_[c] - 1 : std::min(counts_[c] - 1, home[c] + outer);
+  }
+  Cell cell = first_cell;
+  while (true) {
+    int away = -1;
+    for (int c = 0; c < last; ++c) away = std::max(away, std::abs(cell[c] - home[c]));
+    if (away > inner || inner < 0) {
+      scan_row(x, cell, first_cell[last], last_cell[last], collector);
+    } else {
+      scan_row(x, cell, first_cell[last], home[last] - inner - 1, collector);
+      scan_row(x, cell, home[last] + inner + 1, last_cell[last], collector);
+    }
+    int c = last - 1;
+    while (c >= 0 && cell[c] == last_cell[c]) {
+      cell[c] = first_cell[c];
+      --c;
+    }
+    if (c < 0) return;
+    ++cell[c];
+  }
+}
+
+template <int Dim>
+void GridEngine<Dim>::scan_row(const Point<Dim>& x, Cell cell, int first, int last,
+                               CandidateCollector auto& collector) const {
+  if (first > last) return;
+  double gap = squared_gap(x, Dim - 1, first, last);
+  for (int c = 0; c < Dim - 1; ++c) gap += squared_gap(x, c, cell[c], cell[c]);
+  if (gap * shy > collector.bound()) return;
+  cell[Dim - 1] = 0;
+  const int row = index_of(cell);
+  for (int i = cell_start_[row + first]; i < cell_start_[row + last + 1]; ++i) {
+    Point<Dim> node;
+    for (int c = 0; c < Dim; ++c) node[c] = coordinates_[c][i];
+    const double d2 = squared_distance<Dim>(x, node);
+    if (d2 <= collector.bound()) collector.offer({d2, nodes_[i]});
+  }
+}
+
+}  // namespace strongpoint

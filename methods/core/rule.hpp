@@ -1,0 +1,63 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "methods/core/method.hpp"
+#include "methods/core/neighbours.hpp"
+
+namespace strongpoint {
+
+/// A way to choose the nodes of each stencil.
+template <int Dim>
+class StencilRule {
+ public:
+  StencilRule() = default;
+  StencilRule(const StencilRule&) = delete;
+  StencilRule& operator=(const StencilRule&) = delete;
+  virtual ~StencilRule() = default;
+
+  /// One stencil for each anchor listed, sorted by (distance, node id). Throws SkipCase when the sites
+  /// cannot serve the rule (an index block on a cloud without structure).
+  virtual Stencils select(const Sites<Dim>& sites, std::span<const int> anchors,
+                          const Method<Dim>& method, const NeighbourSearch<Dim>& search) const = 0;
+};
+
+/// Stencils of all anchors by a rule; empty where none is wanted.
+template <int Dim>
+Stencils select_stencils(const StencilRule<Dim>& rule, const Sites<Dim>& sites,
+                         const Method<Dim>& method, const NeighbourSearch<Dim>& search) {
+  const std::vector<int> anchors = sites.wanted_anchors();
+  const Stencils chosen = rule.select(sites, anchors, method, search);
+  Stencils all;
+  all.offsets.reserve(sites.anchor_count() + 1);
+  all.nodes.reserve(chosen.nodes.size());
+  int next = 0;
+  for (int a = 0; a < sites.anchor_count(); ++a) {
+    all.push_back(sites.wanted[a] != 0 ? chosen[next++] : std::span<const int>{});
+  }
+  return all;
+}
+
+/// Squared distance of a node from an anchor, by the same sum as the neighbour search.
+template <int Dim>
+double squared_distance(const Sites<Dim>& sites, int anchor, int node) {
+  double sum = 0;
+  for (int c = 0; c < Dim; ++c) {
+    const double difference = sites.anchors(c, anchor) - sites.nodes(c, node);
+    sum += difference * difference;
+  }
+  return sum;
+}
+
+/// Sorts nodes by (distance from an anchor, node id).
+template <int Dim>
+void sort_stencil(const Sites<Dim>& sites, int anchor, std::vector<int>& nodes) {
+  std::sort(nodes.begin(), nodes.end(), [&](int a, int b) {
+    const double first = squared_distance(sites, anchor, a);
+    const double second = squared_distance(sites, anchor, b);
+    return first < second || (first == second && a < b);
+  });
+}
+
+}  // namespace strongpoint

@@ -1,0 +1,37 @@
+#include "methods/core/sites.hpp"
+
+#include <numeric>
+
+namespace strongpoint {
+
+template <int Dim>
+std::vector<int> Sites<Dim>::wanted_anchors() const {
+  std::vector<int> ids;
+  for (int a = 0; a < anchor_count(); ++a) {
+    if (wanted[a] != 0) ids.push_back(a);
+  }
+  return ids;
+}
+
+template <int Dim>
+Sites<Dim> sites_at_nodes(const Points<Dim>& nodes) {
+  Sites<Dim> sites;
+  sites.nodes = nodes;
+  sites.anchors = nodes;
+  sites.points = nodes;
+  sites.anchor_node.resize(nodes.cols());
+  std::iota(sites.anchor_node.begin(), sites.anchor_node.end(), 0);
+  sites.point_anchor = sites.anchor_node;
+  sites.anchor_zone.assign(nodes.cols(), Zone::interior);
+  sites.wanted.assign(nodes.cols(), 1);
+  return sites;
+}
+
+template struct Sites<1>;
+template struct Sites<2>;
+template struct Sites<3>;
+template Sites<1> sites_at_nodes(const Points<1>&);
+template Sites<2> sites_at_nodes(const Points<2>&);
+template Sites<3> sites_at_nodes(const Points<3>&);
+
+}  // namespace strongpoint

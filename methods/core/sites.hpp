@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "methods/core/points.hpp"
+
+namespace strongpoint {
+
+/// Where an anchor lies; what is right inside is often wrong at a boundary.
+enum class Zone : std::uint8_t { interior, boundary };
+
+/// What a method wants prepared beside the nodes; whatever is not asked for is not made.
+struct Needs {
+  bool volumes = false;  ///< measure of each node's cell
+};
+
+/// Index block of a structured cloud: node id = (i0 * shape[1] + i1) * shape[2] + i2.
+template <int Dim>
+struct IndexBlock {
+  std::array<int, Dim> shape;
+};
+
+/// Everything a method may look at: where unknowns live, where stencils are chosen, where derivatives
+/// are evaluated. Made by a form from the cloud and the problem.
+template <int Dim>
+struct Sites {
+  Points<Dim> nodes;                    ///< (Dim, N) carry the unknowns
+  Points<Dim> anchors;                  ///< (Dim, A) a stencil is chosen and factorised at each
+  std::vector<int> anchor_node;         ///< (A) node at the anchor, -1 when there is none
+  std::vector<Zone> anchor_zone;        ///< (A)
+  std::vector<std::uint8_t> wanted;     ///< (A) 0: no derivative is needed, the stencil stays empty
+  Points<Dim> points;                   ///< (Dim, P) derivatives are evaluated here
+  std::vector<int> point_anchor;        ///< (P) anchor of each point, ascending
+  Eigen::VectorXd volumes;              ///< (N) cell measures, empty unless needed
+  std::optional<IndexBlock<Dim>> block; ///< structured clouds only
+
+  int node_count() const { return static_cast<int>(nodes.cols()); }
+  int anchor_count() const { return static_cast<int>(anchors.cols()); }
+  int point_count() const { return static_cast<int>(points.cols()); }
+  /// Ids of the anchors whose stencil is wanted.
+  std::vector<int> wanted_anchors() const;
+};
+
+/// Sites with every node an anchor and an evaluation point, all wanted and interior.
+template <int Dim>
+Sites<Dim> sites_at_nodes(const Points<Dim>& nodes);
+
+}  // namespace strongpoint

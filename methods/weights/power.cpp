@@ -1,0 +1,14 @@
+#include "methods/core/weight_function.hpp"
+
+namespace strongpoint {
+
+/// T^2 = r^-p.
+WeightEntry weight_power() {
+  return {{"power", "T^2 = r^-p", {{"p", "4", "power of the distance in T^2, 0 to 16"}}},
+          [](const Options& options) {
+            const double p = options.number("p", 0, 16);
+            return weight_of_distance([p](double rho) { return std::pow(rho, -p); });
+          }};
+}
+
+}  // namespace strongpoint

@@ -1,0 +1,73 @@
+#include <cmath>
+#include <numbers>
+
+#include "problems/core/jet.hpp"
+#include "problems/core/norms.hpp"
+#include "problems/core/problem.hpp"
+
+namespace strongpoint {
+namespace {
+
+using Point1 = Point<1>;
+
+/// [0,1] with nodes at equidistant parameters to the power alpha. Source: thesis (2.18).
+class PowerInterval final : public UnitCube<1> {
+ public:
+  explicit PowerInterval(double alpha) : alpha_(alpha) {}
+  Point1 map(const Point1& unit) const override { return Point1(std::pow(unit[0], alpha_)); }
+
+ private:
+  double alpha_;
+};
+
+struct Exact {
+  template <class T>
+  T operator()(const std::array<T, 1>& x) const {
+    return -1.0 * exp(x[0]) + std::numbers::e * x[0] + 1.0;
+  }
+};
+
+class Bvp1d final : public SteadyProblem<1> {
+ public:
+  explicit Bvp1d(double alpha) : domain_(alpha) {}
+
+  const Domain<1>& domain() const override { return domain_; }
+  std::vector<std::string> fields() const override { return {"u"}; }
+  Derivatives<1> derivatives(std::span<const BoundaryMark<1>> marks) const override {
+    if (marks.empty()) return {second};
+    return marks[0].side == left ? Derivatives<1>{} : Derivatives<1>{first};
+  }
+  void equations(const Node<1>& node, EquationWriter<1>& write) const override {
+    const MultiIndex<1> alpha = node.marks.empty() ? second : node.on(left) ? value : first;
+    write.add(0, alpha, 1);
+    write.equals(exact_derivatives<1>(Exact{}, node.x, {alpha})[0]);
+  }
+  std::vector<std::string> quantities() const override { return {"u_error", "u_max_error"}; }
+  std::vector<double> measure(const Solution<1>& solution) const override {
+    Eigen::VectorXd exact(solution.cloud.size());
+    for (int i = 0; i < exact.size(); ++i) {
+      exact[i] = exact_derivatives<1>(Exact{}, solution.cloud.nodes.col(i), {value})[0];
+    }
+    const Eigen::VectorXd computed = solution.fields.row(0);
+    return {relative_error(computed, exact), relative_max_error(computed, exact)};
+  }
+
+ private:
+  static constexpr int left = 0;
+  static constexpr MultiIndex<1> value{0}, first{1}, second{2};
+  PowerInterval domain_;
+};
+
+}  // namespace
+
+/// u'' = -exp(x), u(0) = 0, u'(1) = 0. Source: thesis (2.17), (2.18).
+ProblemEntry problem_bvp_1d() {
+  return {{"bvp_1d",
+           "two-point boundary value problem u'' = -exp(x), u(0) = 0, u'(1) = 0",
+           {{"alpha", "1", "nodes lie at ((i-1)/(N-1))^alpha, 0.1 to 10"}}},
+          [](const Options& options) -> AnyProblem {
+            return std::make_unique<Bvp1d>(options.number("alpha", 0.1, 10));
+          }};
+}
+
+}  // namespace strongpoint

@@ -1,0 +1,208 @@
+#include "problems/core/assembly.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "methods/core/error.hpp"
+
+namespace strongpoint {
+namespace {
+
+using Terms = std::span<const Term>;
+
+Terms terms_of(const EquationList& equations, int row) {
+  return {equations.terms.data() + equations.offsets[row],
+          equations.terms.data() + equations.offsets[row + 1]};
+}
+
+/// Buffers of one thread.
+struct Workspace {
+  std::vector<std::pair<int, int>> order;  ///< (node, position in the stencil), sorted by node
+  int ordered_point = -1;                  ///< the point that `order` belongs to
+  Eigen::MatrixXd coefficients;            ///< (fields, derivatives)
+  std::vector<std::uint8_t> used;          ///< (fields) 1 where the row has a term
+  std::vector<std::pair<std::int64_t, double>> entries;  ///< of a row with several points
+};
+
+/// True when all terms name one point, the case that assembles at full speed.
+bool has_single_point(Terms terms) {
+  return std::all_of(terms.begin(), terms.end(),
+                     [&](const Term& term) { return term.point == terms.front().point; });
+}
+
+bool is_bare_value(Terms terms) {
+  return std::all_of(terms.begin(), terms.end(),
+                     [](const Term& term) { return term.derivative == value_only; });
+}
+
+/// Marks the fields that occur among the terms on derivatives; returns how many.
+int mark_fields(Terms terms, int fields, std::vector<std::uint8_t>& used) {
+  used.assign(fields, 0);
+  for (const Term& term : terms) {
+    if (term.derivative != value_only) used[term.field] = 1;
+  }
+  return static_cast<int>(std::count(used.begin(), used.end(), 1));
+}
+
+/// Adds the entries of all terms, whatever their points, sorted and summed by column.
+void gather_entries(Terms terms, const Weights& weights, int fields, Workspace& work) {
+  work.entries.clear();
+  for (const Term& term : terms) {
+    if (term.derivative == value_only) {
+      work.entries.emplace_back(static_cast<std::int64_t>(term.point) * fields + term.field,
+                                term.coefficient);
+      continue;
+    }
+    const std::span<const int> nodes = weights.nodes(term.point);
+    const Eigen::Map<const Eigen::MatrixXd> row = weights.row(term.point);
+    for (std::size_t j = 0; j < nodes.size(); ++j) {
+      work.entries.emplace_back(
+          static_cast<std::int64_t>(nodes[j]) * fields + term.field,
+          term.coefficient * row(term.derivative, static_cast<Eigen::Index>(j)));
+    }
+  }
+  std::stable_sort(work.entries.begin(), work.entries.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::size_t last = 0;
+  for (std::size_t i = 1; i < work.entries.size(); ++i) {
+    if (work.entries[i].first == work.entries[last].first) {
+      work.entries[last].second += work.entries[i].second;
+    } else {
+      work.entries[++last] = work.entries[i];
+    }
+  }
+  work.entries.resize(work.entries.empty() ? 0 : last + 1);
+}
+
+/// True when the row is derivatives of fields at one point, without bare values.
+bool is_compact(Terms terms) {
+  return has_single_point(terms) && std::none_of(terms.begin(), terms.end(), [](const Term& term) {
+           return term.derivative == value_only;
+         });
+}
+
+std::int64_t count_entries(Terms terms, const Weights& weights, int fields, Workspace& work) {
+  if (terms.empty()) return 0;
+  if (is_compact(terms)) {
+    const auto stencil = static_cast<std::int64_t>(weights.nodes(terms.front().point).size());
+    return mark_fields(terms, fields, work.used) * stencil;
+  }
+  if (terms.size() == 1 && is_bare_value(terms)) return 1;
+  gather_entries(terms, weights, fields, work);
+  return static_cast<std::int64_t>(work.entries.size());
+}
+
+/// Fills a compact row: for every stencil node the used fields, a product (fields x derivatives) with
+/// the node's weights.
+void fill_compact(Terms terms, const Weights& weights, int fields, Workspace& work,
+                  std::int64_t* columns, double* values) {
+  const int point = terms.front().point;
+  const std::span<const int> nodes = weights.nodes(point);
+  if (work.ordered_point != point) {  // sorted once per stencil, not once per row
+    work.ordered_point = point;
+    work.order.clear();
+    for (std::size_t j = 0; j < nodes.size(); ++j) work.order.emplace_back(nodes[j], static_cast<int>(j));
+    std::sort(work.order.begin(), work.order.end());
+  }
+  mark_fields(terms, fields, work.used);
+  work.coefficients.setZero(fields, weights.per_entry);
+  for (const Term& term : terms) work.coefficients(term.field, term.derivative) += term.coefficient;
+  const double* base = weights.values.data() + weights.offsets[point] * weights.per_entry;
+  std::size_t at = 0;
+  for (const auto& [node, position] : work.order) {
+    const double* of_entry = base + static_cast<std::ptrdiff_t>(position) * weights.per_entry;
+    for (int f = 0; f < fields; ++f) {
+      if (work.used[f] == 0) continue;
+      double sum = 0;
+      for (int d = 0; d < weights.per_entry; ++d) sum += work.coefficients(f, d) * of_entry[d];
+      columns[at] = static_cast<std::int64_t>(node) * fields + f;
+      values[at++] = sum;
+    }
+  }
+}
+
+void fill_row(Terms terms, const Weights& weights, int fields, Workspace& work,
+              std::int64_t* columns, double* values) {
+  if (is_compact(terms)) {
+    fill_compact(terms, weights, fields, work, columns, values);
+    return;
+  }
+  gather_entries(terms, weights, fields, work);
+  for (std::size_t i = 0; i < work.entries.size(); ++i) {
+    columns[i] = work.entries[i].first;
+    values[i] = work.entries[i].second;
+  }
+}
+
+/// Largest magnitude of a row, 1 / which scales it; 0 or NaN mark a bad row.
+double scale_row(double* values, std::int64_t count, double& right_hand_side) {
+  double largest = 0;
+  for (std::int64_t i = 0; i < count; ++i) {
+    if (!std::isfinite(values[i])) return std::numeric_limits<double>::quiet_NaN();
+    largest = std::max(largest, std::abs(values[i]));
+  }
+  if (largest > 0) {
+    for (std::int64_t i = 0; i < count; ++i) values[i] /= largest;
+    right_hand_side /= largest;
+  }
+  return largest;
+}
+
+void check_rows(const std::vector<double>& largest, const Eigen::VectorXd& right_hand_side,
+                int fields) {
+  for (std::size_t row = 0; row < largest.size(); ++row) {
+    const bool fine =
+        largest[row] > 0 && std::isfinite(right_hand_side[static_cast<Eigen::Index>(row)]);
+    if (fine) continue;
+    const char* what = largest[row] == 0 ? "has no entries: its node has no stencil"
+                                         : "holds a number that is not finite";
+    throw CaseError(fmt::format("equation {} of node {} {}; check the problem's data and the stencil",
+                                static_cast<int>(row) % fields, static_cast<int>(row) / fields, what));
+  }
+}
+
+}  // namespace
+
+LinearSystem assemble(const EquationList& equations, const Weights& weights, int nodes, int fields) {
+  const int rows = equations.size();
+  if (rows != nodes * fields) {
+    throw CaseError(fmt::format("{} equations for {} unknowns; a problem states one per node and field",
+                                rows, nodes * fields));
+  }
+  LinearSystem system;
+  system.fields = fields;
+  system.offsets.assign(rows + 1, 0);
+  system.right_hand_side = Eigen::Map<const Eigen::VectorXd>(equations.right_hand_sides.data(), rows);
+  std::vector<double> largest(rows);
+#pragma omp parallel
+  {
+    Workspace work;
+#pragma omp for schedule(static)
+    for (int row = 0; row < rows; ++row) {
+      system.offsets[row + 1] = count_entries(terms_of(equations, row), weights, fields, work);
+    }
+#pragma omp single
+    {
+      for (int row = 0; row < rows; ++row) system.offsets[row + 1] += system.offsets[row];
+      system.columns.resize(system.offsets.back());
+      system.values.resize(system.offsets.back());
+    }
+#pragma omp for schedule(static)
+    for (int row = 0; row < rows; ++row) {
+      const std::int64_t begin = system.offsets[row];
+      const std::int64_t count = system.offsets[row + 1] - begin;
+      if (count == 0) continue;
+      fill_row(terms_of(equations, row), weights, fields, work, system.columns.data() + begin,
+               system.values.data() + begin);
+      largest[row] = scale_row(system.values.data() + begin, count, system.right_hand_side[row]);
+    }
+  }
+  check_rows(largest, system.right_hand_side, fields);
+  return system;
+}
+
+}  // namespace strongpoint

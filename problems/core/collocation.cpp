@@ -1,0 +1,97 @@
+#include <algorithm>
+
+#include "problems/core/form.hpp"
+
+namespace strongpoint {
+namespace {
+
+/// True when the equations at a node read the value alone, so that no stencil is needed.
+template <int Dim>
+bool reads_value_only(const SteadyProblem<Dim>& problem, std::span<const BoundaryMark<Dim>> marks) {
+  return problem.derivatives(marks).highest_order() == 0;
+}
+
+/// Point collocation: the equation at each node, boundary conditions at boundary nodes.
+template <int Dim>
+class Collocation final : public Form<Dim> {
+ public:
+  std::string unsupported(const Method<Dim>& method) const override {
+    if (method.promises().interpolates) return {};
+    return "plain collocation writes Dirichlet rows on nodal values, which this method does not have";
+  }
+
+  Derivatives<Dim> derivatives(const SteadyProblem<Dim>& problem, const PointCloud<Dim>& cloud,
+                               const Method<Dim>&) const override {
+    Derivatives<Dim> all;
+    for (int i = 0; i < cloud.size(); ++i) {
+      for (const MultiIndex<Dim>& alpha : problem.derivatives(cloud.marks_of(i))) {
+        if (order_of<Dim>(alpha) > 0 && !all.contains(alpha)) all.merge({alpha});
+      }
+    }
+    return all;
+  }
+
+  Sites<Dim> sites(const SteadyProblem<Dim>& problem, const PointCloud<Dim>& cloud,
+                   const Method<Dim>&) const override {
+    Sites<Dim> sites = sites_at_nodes<Dim>(cloud.nodes);
+    sites.block = cloud.block;
+    for (int i = 0; i < cloud.size(); ++i) {
+      if (cloud.is_boundary(i)) sites.anchor_zone[i] = Zone::boundary;
+      if (reads_value_only(problem, cloud.marks_of(i))) sites.wanted[i] = 0;
+    }
+    return sites;
+  }
+
+  EquationList equations(const SteadyProblem<Dim>& problem, const PointCloud<Dim>& cloud,
+                         const Derivatives<Dim>& derivatives) const override {
+    EquationList list;
+    EquationWriter<Dim> write(list, derivatives);
+    for (int i = 0; i < cloud.size(); ++i) {
+      write.at(i);
+      problem.equations(Node<Dim>{i, cloud.nodes.col(i), cloud.marks_of(i)}, write);
+    }
+    return list;
+  }
+};
+
+const EntryInfo& collocation_info() {
+  static const EntryInfo info{
+      "collocation",
+      "the equation at each node, boundary conditions at boundary nodes",
+      {{"boundary", "plain", "plain: the boundary condition replaces the equation at its node"},
+       {"symmetry", "rows", "rows: symmetry planes are written as boundary conditions"}}};
+  return info;
+}
+
+Options checked_options(std::string_view text) {
+  const Spec spec = parse_spec(text);
+  struct Known {
+    EntryInfo info;
+  };
+  const std::vector<Known> known{{collocation_info()}};
+  Options options(find_entry(known, "form", spec.name).info, spec);
+  options.choice<int>("boundary", {{"plain", 0}});
+  options.choice<int>("symmetry", {{"rows", 0}});
+  return options;
+}
+
+}  // namespace
+
+const std::vector<EntryInfo>& forms() {
+  static const std::vector<EntryInfo> entries{collocation_info()};
+  return entries;
+}
+
+std::string canonical_form(std::string_view spec) { return checked_options(spec).canonical(); }
+
+template <int Dim>
+std::unique_ptr<Form<Dim>> make_form(std::string_view spec) {
+  checked_options(spec);
+  return std::make_unique<Collocation<Dim>>();
+}
+
+template std::unique_ptr<Form<1>> make_form<1>(std::string_view);
+template std::unique_ptr<Form<2>> make_form<2>(std::string_view);
+template std::unique_ptr<Form<3>> make_form<3>(std::string_view);
+
+}  // namespace strongpoint

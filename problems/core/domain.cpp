@@ -1,0 +1,76 @@
+#include "problems/core/domain.hpp"
+
+#include <algorithm>
+
+namespace strongpoint {
+
+template <int Dim>
+double Domain<Dim>::spacing(const Point<Dim>&, int level) const {
+  return reference_length() / (level - 1);
+}
+
+template <int Dim>
+std::vector<BoundaryMark<Dim>> Domain<Dim>::marks(const std::vector<int>& sides,
+                                                  const Point<Dim>& x) const {
+  std::vector<BoundaryMark<Dim>> result;
+  result.reserve(sides.size());
+  for (int side : sides) result.push_back({side, normal(side, x)});
+  return result;
+}
+
+template <int Dim>
+const std::vector<std::string>& UnitCube<Dim>::sides() const {
+  static const std::vector<std::string> all{"left", "right", "bottom", "top", "back", "front"};
+  static const std::vector<std::string> names(all.begin(), all.begin() + 2 * Dim);
+  return names;
+}
+
+template <int Dim>
+std::vector<int> UnitCube<Dim>::sides_at(const Point<Dim>& unit) const {
+  std::vector<int> found;
+  for (int c = 0; c < Dim; ++c) {
+    if (unit[c] == 0) found.push_back(2 * c);
+    if (unit[c] == 1) found.push_back(2 * c + 1);
+  }
+  return found;
+}
+
+template <int Dim>
+Point<Dim> UnitCube<Dim>::normal(int side, const Point<Dim>&) const {
+  return (side % 2 == 0 ? -1 : 1) * Point<Dim>::Unit(side / 2);
+}
+
+template <int Dim>
+double UnitCube<Dim>::distance(const Point<Dim>& x) const {
+  const Point<Dim> beyond = (x.array() - 0.5).abs() - 0.5;
+  const Point<Dim> outside = beyond.cwiseMax(0);
+  return outside.norm() + std::min(beyond.maxCoeff(), 0.0);
+}
+
+template <int Dim>
+std::vector<BoundaryPiece<Dim>> UnitCube<Dim>::pieces() const {
+  std::vector<BoundaryPiece<Dim>> result;
+  for (int side = 0; side < 2 * Dim; ++side) {
+    const auto map = [side](const typename BoundaryPiece<Dim>::Parameter& parameter) {
+      const int fixed = side / 2;
+      Point<Dim> x;
+      x[fixed] = side % 2;
+      int next = 0;
+      for (int c = 0; c < Dim; ++c) {
+        if (c != fixed) x[c] = parameter[next++];
+      }
+      return x;
+    };
+    result.push_back({side, map});
+  }
+  return result;
+}
+
+template class Domain<1>;
+template class Domain<2>;
+template class Domain<3>;
+template class UnitCube<1>;
+template class UnitCube<2>;
+template class UnitCube<3>;
+
+}  // namespace strongpoint

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "problems/core/point_cloud.hpp"
+
+namespace strongpoint {
+
+/// A smooth piece of the boundary, the image of [0,1]^(Dim-1); in 1D a single point.
+template <int Dim>
+struct BoundaryPiece {
+  using Parameter = Eigen::Matrix<double, Dim - 1, 1>;
+  int side;                                         ///< index into the domain's sides
+  std::function<Point<Dim>(const Parameter&)> map;  ///< ends (1D edges, 2D rims) are shared with neighbours
+};
+
+/// The region a problem is posed on: a map from the unit cube for structured clouds, and a distance
+/// function with boundary pieces for scattered ones.
+template <int Dim>
+class Domain {
+ public:
+  Domain() = default;
+  Domain(const Domain&) = delete;
+  Domain& operator=(const Domain&) = delete;
+  virtual ~Domain() = default;
+
+  /// Names of the sides; physical groups and CSV tags are matched against them.
+  virtual const std::vector<std::string>& sides() const = 0;
+  /// Length, area or volume.
+  virtual double measure() const = 0;
+  /// Length of the side along which a level counts nodes.
+  virtual double reference_length() const = 0;
+  /// Image of a point of [0,1]^Dim. The last component varies fastest in the node order.
+  virtual Point<Dim> map(const Point<Dim>& unit) const = 0;
+  /// Sides that hold the image of a point on the boundary of the unit cube; several at a corner.
+  virtual std::vector<int> sides_at(const Point<Dim>& unit) const = 0;
+  /// Outward unit normal of a side at (or nearest to) x.
+  virtual Point<Dim> normal(int side, const Point<Dim>& x) const = 0;
+  /// Signed distance to the boundary, negative inside; exact near the boundary.
+  virtual double distance(const Point<Dim>& x) const = 0;
+  /// The boundary, piece by piece; pieces meet only at their ends.
+  virtual std::vector<BoundaryPiece<Dim>> pieces() const = 0;
+  /// Wanted distance between nodes of a scattered cloud of a level; uniform unless a problem grades it.
+  virtual double spacing(const Point<Dim>& x, int level) const;
+  /// Boundary marks, with normals, of the sides given.
+  std::vector<BoundaryMark<Dim>> marks(const std::vector<int>& sides, const Point<Dim>& x) const;
+};
+
+/// [0,1]^Dim with sides left, right (x), bottom, top (y), back, front (z).
+template <int Dim>
+class UnitCube : public Domain<Dim> {
+ public:
+  const std::vector<std::string>& sides() const override;
+  double measure() const override { return 1; }
+  double reference_length() const override { return 1; }
+  Point<Dim> map(const Point<Dim>& unit) const override { return unit; }
+  std::vector<int> sides_at(const Point<Dim>& unit) const override;
+  Point<Dim> normal(int side, const Point<Dim>& x) const override;
+  double distance(const Point<Dim>& x) const override;
+  std::vector<BoundaryPiece<Dim>> pieces() const override;
+};
+
+}  // namespace strongpoint

@@ -1,0 +1,15 @@
+#include "problems/core/layout.hpp"
+#include "problems/core/structured.hpp"
+
+namespace strongpoint {
+
+/// Registers `grid`: equidistant in the unit cube, shaped by the domain's map.
+LayoutEntry layout_grid() {
+  return layout_entry(
+      {"grid", "structured, equidistant before the domain's map", {}},
+      []<int Dim>(const Domain<Dim>& domain, const Options&, const LayoutRequest& request) {
+        return structured_cloud(domain, tensor_lattice<Dim>(graded_axis(request.level, 1)));
+      });
+}
+
+}  // namespace strongpoint

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <vector>
+
+#include "problems/core/elasticity.hpp"
+#include "problems/core/jet.hpp"
+#include "problems/core/norms.hpp"
+#include "problems/core/problem.hpp"
+
+namespace strongpoint {
+
+/// Which condition the side x = 1 carries; all others are Dirichlet.
+enum class RightSide { dirichlet, neumann };
+
+/// lap u = f on the unit cube, with f and the boundary data derived from a given u, generic in its
+/// number type: `Exact{}(const std::array<T, Dim>&)`.
+template <int Dim, class Exact>
+class ManufacturedPoisson final : public SteadyProblem<Dim> {
+ public:
+  explicit ManufacturedPoisson(RightSide right) : right_(right) {}
+
+  const Domain<Dim>& domain() const override { return domain_; }
+  std::vector<std::string> fields() const override { return {"u"}; }
+
+  Derivatives<Dim> derivatives(std::span<const BoundaryMark<Dim>> marks) const override {
+    if (marks.empty()) return laplacian_;
+    return is_neumann(marks) ? Derivatives<Dim>{partial<Dim>(0)} : Derivatives<Dim>{};
+  }
+
+  void equations(const Node<Dim>& node, EquationWriter<Dim>& write) const override {
+    if (node.marks.empty()) {
+      for (const MultiIndex<Dim>& alpha : laplacian_) write.add(0, alpha, 1);
+      write.equals(exact_derivatives<Dim>(Exact{}, node.x, laplacian_).sum());
+    } else if (is_neumann(node.marks)) {
+      const Derivatives<Dim> normal{partial<Dim>(0)};
+      write.add(0, normal[0], 1);
+      write.equals(exact_derivatives<Dim>(Exact{}, node.x, normal)[0]);
+    } else {
+      write.add(0, MultiIndex<Dim>{}, 1);
+      write.equals(value_at(node.x));
+    }
+  }
+
+  std::vector<std::string> quantities() const override { return {"u_error", "u_max_error"}; }
+  std::vector<double> measure(const Solution<Dim>& solution) const override {
+    Eigen::VectorXd exact(solution.cloud.size());
+    for (int i = 0; i < solution.cloud.size(); ++i) exact[i] = value_at(solution.cloud.nodes.col(i));
+    const Eigen::VectorXd computed = solution.fields.row(0);
+    return {relative_error(computed, exact), relative_max_error(computed, exact)};
+  }
+
+ private:
+  RightSide right_;
+  UnitCube<Dim> domain_;
+  Derivatives<Dim> laplacian_ = [] {
+    Derivatives<Dim> all;
+    for (int c = 0; c < Dim; ++c) all.merge({partial<Dim>(c, c)});
+    return all;
+  }();
+
+  /// Dirichlet wins at shared edges and corners.
+  bool is_neumann(std::span<const BoundaryMark<Dim>> marks) const {
+    constexpr int right = 1;  // UnitCube's second side, x = 1
+    return right_ == RightSide::neumann && marks.size() == 1 && marks[0].side == right;
+  }
+  static double value_at(const Point<Dim>& x) {
+    return exact_derivatives<Dim>(Exact{}, x, Derivatives<Dim>{MultiIndex<Dim>{}})[0];
+  }
+};
+
+/// The documented option and the maker shared by the square and the cube.
+template <int Dim, class Exact>
+ProblemEntry manufactured_poisson(std::string name, std::string summary) {
+  return {{std::move(name),
+           std::move(summary),
+           {{"bc", "dirichlet", "dirichlet | mixed: mixed has a Neumann condition on x = 1"}}},
+          [](const Options& options) -> AnyProblem {
+            return std::make_unique<ManufacturedPoisson<Dim, Exact>>(options.choice<RightSide>(
+                "bc", {{"dirichlet", RightSide::dirichlet}, {"mixed", RightSide::neumann}}));
+          }};
+}
+
+}  // namespace strongpoint

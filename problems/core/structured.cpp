@@ -1,0 +1,68 @@
+#include "problems/core/structured.hpp"
+
+#include <cmath>
+
+namespace strongpoint {
+namespace {
+
+/// True when a point lies on the surface of the unit cube.
+template <int Dim>
+bool on_unit_boundary(const Point<Dim>& unit) {
+  return (unit.array() == 0).any() || (unit.array() == 1).any();
+}
+
+}  // namespace
+
+std::vector<double> graded_axis(int n, double ratio) {
+  const double growth = n > 2 ? std::pow(ratio, 1.0 / (n - 2)) : 1;
+  std::vector<double> axis(n, 0.0);
+  for (int i = 1; i < n; ++i) {
+    // Equal spacings as integers: i / (n - 1) is then correctly rounded.
+    axis[i] = axis[i - 1] + (ratio == 1 ? 1.0 : std::pow(growth, i - 1));
+  }
+  const double length = axis.back();
+  for (double& x : axis) x /= length;
+  return axis;
+}
+
+template <int Dim>
+UnitLattice<Dim> tensor_lattice(const std::vector<double>& axis) {
+  const int n = static_cast<int>(axis.size());
+  UnitLattice<Dim> lattice;
+  lattice.block.shape.fill(n);
+  lattice.nodes.resize(Dim, static_cast<Eigen::Index>(std::lround(std::pow(n, Dim))));
+  for (Eigen::Index id = 0; id < lattice.nodes.cols(); ++id) {
+    Eigen::Index rest = id;
+    for (int c = Dim - 1; c >= 0; --c) {
+      lattice.nodes(c, id) = axis[rest % n];
+      rest /= n;
+    }
+  }
+  return lattice;
+}
+
+template <int Dim>
+PointCloud<Dim> structured_cloud(const Domain<Dim>& domain, const UnitLattice<Dim>& lattice) {
+  CloudBuilder<Dim> builder;
+  for (Eigen::Index id = 0; id < lattice.nodes.cols(); ++id) {
+    const Point<Dim> unit = lattice.nodes.col(id);
+    const Point<Dim> x = domain.map(unit);
+    if (on_unit_boundary<Dim>(unit)) {
+      builder.add(x, domain.marks(domain.sides_at(unit), x));
+    } else {
+      builder.add(x);
+    }
+  }
+  PointCloud<Dim> cloud = builder.finish(domain.measure());
+  cloud.block = lattice.block;
+  return cloud;
+}
+
+template UnitLattice<1> tensor_lattice(const std::vector<double>&);
+template UnitLattice<2> tensor_lattice(const std::vector<double>&);
+template UnitLattice<3> tensor_lattice(const std::vector<double>&);
+template PointCloud<1> structured_cloud(const Domain<1>&, const UnitLattice<1>&);
+template PointCloud<2> structured_cloud(const Domain<2>&, const UnitLattice<2>&);
+template PointCloud<3> structured_cloud(const Domain<3>&, const UnitLattice<3>&);
+
+}  // namespace strongpoint

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "problems/core/domain.hpp"
+
+namespace strongpoint {
+
+/// Nodes of an index block in the unit cube, before a domain's map shapes them.
+template <int Dim>
+struct UnitLattice {
+  IndexBlock<Dim> block;
+  Points<Dim> nodes;  ///< (Dim, N), the last index varies fastest
+};
+
+/// Gives n coordinates from 0 to 1 whose spacings grow geometrically; `ratio` = last / first
+/// spacing, 1 for equal ones. Both ends are exact.
+std::vector<double> graded_axis(int n, double ratio);
+
+/// Makes the tensor product of one list of coordinates with itself.
+template <int Dim>
+UnitLattice<Dim> tensor_lattice(const std::vector<double>& axis);
+
+/// Maps a lattice into a domain. A node with a unit coordinate of exactly 0 or 1 gets the marks of
+/// the sides there. Throws CaseError when the map makes nodes coincide or is not finite.
+template <int Dim>
+PointCloud<Dim> structured_cloud(const Domain<Dim>& domain, const UnitLattice<Dim>& lattice);
+
+}  // namespace strongpoint

@@ -1,0 +1,108 @@
+#include "problems/core/norms.hpp"
+#include "studies/support/run_case.hpp"
+#include "studies/support/study.hpp"
+
+namespace strongpoint {
+namespace {
+
+/// Zone names, in the order of the quantities.
+constexpr std::array<std::pair<Zone, const char*>, 2> zones{
+    {{Zone::interior, "interior"}, {Zone::boundary, "boundary"}}};
+
+std::vector<std::string> quantities(const CaseKey& key, const Options&) {
+  return with_problem<FieldProblem>(key.problem, "field",
+                                    []<int Dim>(const FieldProblem<Dim>& problem) {
+                                      std::vector<std::string> names;
+                                      for (const auto& [zone, suffix] : zones) {
+                                        for (const MultiIndex<Dim>& alpha : problem.derivatives()) {
+                                          names.push_back(name_of<Dim>(alpha) + "_" + suffix);
+                                        }
+                                      }
+                                      return names;
+                                    });
+}
+
+/// Derivatives at every point by the weights, (derivatives, points).
+Eigen::MatrixXd apply(const Weights& weights, const Eigen::VectorXd& values) {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(weights.per_entry, weights.size());
+  for (int p = 0; p < weights.size(); ++p) {
+    const std::span<const int> nodes = weights.nodes(p);
+    const Eigen::Map<const Eigen::MatrixXd> row = weights.row(p);
+    for (std::size_t j = 0; j < nodes.size(); ++j) {
+      result.col(p) += row.col(static_cast<Eigen::Index>(j)) * values[nodes[j]];
+    }
+  }
+  return result;
+}
+
+/// Relative error of one derivative over the nodes of one zone.
+double zone_error(const Eigen::VectorXd& computed, const Eigen::VectorXd& exact,
+                  const std::vector<Zone>& zone_of, Zone zone) {
+  std::vector<Eigen::Index> nodes;
+  for (std::size_t i = 0; i < zone_of.size(); ++i) {
+    if (zone_of[i] == zone) nodes.push_back(static_cast<Eigen::Index>(i));
+  }
+  const Eigen::VectorXd a = computed(nodes);
+  const Eigen::VectorXd b = exact(nodes);
+  return relative_error(a, b);
+}
+
+template <int Dim>
+CaseResult run(const FieldProblem<Dim>& problem, const CaseKey& key, const RunOptions& options) {
+  CaseResult result;
+  const StageClock clock(options.threads);
+  const Choices<Dim> choices(key);
+  Discretisation<Dim> scene;
+  scene.derivatives = problem.derivatives();
+  scene.cloud = make_case_cloud<Dim>(problem.domain(), key, options);
+  scene.sites = sites_at_nodes<Dim>(scene.cloud.nodes);
+  scene.sites.block = scene.cloud.block;
+  for (int i = 0; i < scene.cloud.size(); ++i) {
+    if (scene.cloud.is_boundary(i)) scene.sites.anchor_zone[i] = Zone::boundary;
+  }
+  compute_weights<Dim>(scene, problem.domain(), choices, options, clock, result.times);
+
+  Derivatives<Dim> wanted{MultiIndex<Dim>{}};
+  wanted.merge(scene.derivatives);
+  Eigen::MatrixXd exact(wanted.size(), scene.cloud.size());
+  for (int i = 0; i < scene.cloud.size(); ++i) {
+    exact.col(i) = problem.exact(scene.cloud.nodes.col(i), wanted);
+  }
+  const Eigen::MatrixXd computed = apply(scene.weights, exact.row(0));
+  for (const auto& [zone, suffix] : zones) {
+    for (int d = 0; d < scene.derivatives.size(); ++d) {
+      const double error =
+          zone_error(computed.row(d), exact.row(d + 1), scene.sites.anchor_zone, zone);
+      result.quantities.push_back(
+          {name_of<Dim>(scene.derivatives[d]) + "_" + suffix, error, {}, {}});
+    }
+  }
+  result.nodes = scene.cloud.size();
+  result.unknowns = 0;
+  result.spacing = scene.cloud.spacing();
+  return result;
+}
+
+}  // namespace
+}  // namespace strongpoint
+
+/// Errors of derivative weights on a smooth function, derivative by derivative, interior and boundary
+/// apart.
+int main(int argc, char** argv) {
+  using namespace strongpoint;  // NOLINT(google-build-using-namespace)
+  Study study;
+  study.name = "local_accuracy";
+  study.summary = "errors of derivative weights on a smooth function, by derivative and zone";
+  study.defaults.problem = "field";
+  study.defaults.method = "mfpm,gfdm,lsfdm,rbf_fd";
+  study.defaults.cloud = "perturbed";
+  study.defaults.levels = "11,21,41,81";
+  study.quantities = quantities;
+  study.run = [](const CaseKey& key, const RunOptions& options, const Options&) {
+    return with_problem<FieldProblem>(
+        key.problem, "field", [&]<int Dim>(const FieldProblem<Dim>& problem) {
+          return run<Dim>(problem, key, options);
+        });
+  };
+  return run_study(argc, argv, study);
+}

@@ -1,0 +1,206 @@
+#include "studies/support/command_line.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <map>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "methods/core/neighbours.hpp"
+#include "studies/support/provenance.hpp"
+
+namespace strongpoint {
+namespace {
+
+/// The options as text, as far as they were given; parsing them here keeps the messages ours.
+struct Given {
+  std::map<std::string, std::string> values;  ///< by option, "--method"
+  bool list = false, smoke = false;
+
+  bool has(const std::string& option) const { return values.count(option) > 0; }
+  std::string value(const std::string& option, const std::string& otherwise) const {
+    const auto found = values.find(option);
+    return found == values.end() ? otherwise : found->second;
+  }
+};
+
+template <class T>
+T number(const Given& given, const std::string& option, T otherwise, T least, T most) {
+  if (!given.has(option)) return otherwise;
+  const std::string& text = given.values.at(option);
+  T result{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), result);
+  if (error != std::errc() || end != text.data() + text.size() || result < least || result > most) {
+    throw UsageError(
+        fmt::format("{} {}: must be an integer from {} to {}", option, text, least, most));
+  }
+  return result;
+}
+
+std::string engine(const Given& given) {
+  const std::vector<std::string>& engines = search_engines();
+  const std::string name = given.value("--neighbours", RunOptions{}.neighbours);
+  if (std::find(engines.begin(), engines.end(), name) == engines.end()) {
+    throw UsageError(fmt::format("--neighbours {}: unknown search engine; known: {}", name,
+                                 fmt::join(engines, ", ")));
+  }
+  return name;
+}
+
+/// The first spec of a default axis, which is all that a smoke run takes.
+std::string first_of(const std::string& axis) {
+  return axis == "all" ? axis : split_specs(axis).front();
+}
+
+AxisTexts axis_texts(const Given& given, const AxisDefaults& defaults) {
+  const auto axis = [&](const char* option, const std::string& otherwise) {
+    return given.value(option, given.smoke ? first_of(otherwise) : otherwise);
+  };
+  const bool own_method = given.smoke && !defaults.smoke_method.empty();
+  AxisTexts texts;
+  texts.problem = axis("--problem", defaults.problem);
+  texts.method = axis("--method", own_method ? defaults.smoke_method : defaults.method);
+  texts.cloud = axis("--cloud", defaults.cloud);
+  texts.form = axis("--form", defaults.form);
+  texts.solver = axis("--solver", defaults.solver);
+  texts.levels = given.value("--levels", given.smoke ? defaults.smoke_levels : defaults.levels);
+  if (given.has("--stencil")) texts.stencil = given.values.at("--stencil");
+  return texts;
+}
+
+Options extra_options(const Given& given, const Study& study) {
+  Spec spec{study.name, {}};
+  for (const OptionDoc& option : study.extra_options) {
+    const std::string name = "--" + option.key;
+    if (given.has(name)) spec.arguments.emplace_back(option.key, given.values.at(name));
+  }
+  return Options({study.name, study.summary, study.extra_options}, spec);
+}
+
+/// An option of a study program with its help.
+struct OptionHelp {
+  std::string name, placeholder, help;
+};
+
+std::vector<OptionHelp> option_helps(const Study& study) {
+  const AxisDefaults& defaults = study.defaults;
+  const std::string specs = "SPEC[,SPEC]";
+  std::vector<OptionHelp> helps = {
+      {"--problem", specs, "problems, or all; default " + defaults.problem},
+      {"--method", specs, "methods, or all; default " + defaults.method},
+      {"--stencil", specs, "stencil rules, or all; default: what suits each method"},
+      {"--cloud", specs, "node layouts, or all; default " + defaults.cloud},
+      {"--levels", "N[,N]", "nodes along the reference side; default " + defaults.levels},
+      {"--form", specs, "how the system is written, or all; default " + defaults.form},
+      {"--solver", specs, "linear solvers, or all; default " + defaults.solver},
+      {"--threads", "N", "threads; default 1"},
+      {"--repeat", "N", "runs of which timings take the minimum; default 1"},
+      {"--seed", "N", "seed of clouds whose spec gives none; default 1"},
+      {"--neighbours", "NAME",
+       fmt::format("search engine: {}; default auto", fmt::join(search_engines(), ", "))},
+      {"--csv", "FILE", "write the tidy table; - is standard output"},
+      {"--json", "FILE", "write the table with its provenance; - is standard output"},
+      {"--resume", "FILE", "keep the finished cases of this table, run the rest"}};
+  for (const OptionDoc& option : study.extra_options) {
+    const std::string standard = option.default_value.empty() ? "none" : option.default_value;
+    helps.push_back({"--" + option.key, "VALUE", option.doc + "; default " + standard});
+  }
+  return helps;
+}
+
+/// What CLI11 found wrong, in one line that says what is allowed.
+[[noreturn]] void rethrow(const CLI::ParseError& error, const std::vector<OptionHelp>& helps) {
+  std::string known;
+  for (const OptionHelp& help : helps) known += help.name + ", ";
+  throw UsageError(fmt::format("{}; options: {}--list, --smoke, --version, --help",
+                               one_line(error.what()), known));
+}
+
+/// The arguments as text. Values are collected by hand, so that an option that swallowed the next
+/// one or was given twice is told as such.
+void parse(CLI::App& app, const std::vector<OptionHelp>& helps, int argc, const char* const* argv,
+           Given& given) {
+  for (const OptionHelp& help : helps) {
+    app.add_option_function<std::vector<std::string>>(
+           help.name,
+           [&given, name = help.name](const std::vector<std::string>& values) {
+             if (values.size() != 1) {
+               throw UsageError(
+                   fmt::format("{} {}: given {} times; give it once, with commas between "
+                               "several values",
+                               name, fmt::join(values, " "), values.size()));
+             }
+             if (values[0].empty() || values[0].starts_with("--")) {
+               throw UsageError(
+                   fmt::format("{} '{}': a value is missing after the option", name, values[0]));
+             }
+             given.values[name] = values[0];
+           },
+           help.help)
+        ->option_text(help.placeholder)
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  }
+  app.add_flag("--list", given.list, "list what there is to choose from");
+  app.add_flag("--smoke", given.smoke, "the smallest run that goes through every stage");
+  app.set_version_flag("--version", code_version());
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success&) {
+    throw;
+  } catch (const CLI::ParseError& error) {
+    rethrow(error, helps);
+  }
+}
+
+void check_files(const CommandLine& line) {
+  if (line.resume == "-") {
+    throw UsageError("--resume -: must be a file; standard output cannot be read back");
+  }
+  if (!line.json.empty() && line.json == line.csv) {
+    throw UsageError(
+        fmt::format("--json {}: is the file of --csv too; give them different names", line.json));
+  }
+  if (!line.json.empty() && line.json == line.resume) {
+    throw UsageError(fmt::format(
+        "--json {}: is the file of --resume too; give them different names", line.json));
+  }
+}
+
+CommandLine plain_text(CommandLine::Action action, std::string text, const Study& study) {
+  return {action, std::move(text), {}, {}, extra_options({}, study), "", true, "", ""};
+}
+
+}  // namespace
+
+CommandLine parse_command_line(int argc, const char* const* argv, const Study& study) {
+  CLI::App app(study.summary, study.name);
+  Given given;
+  try {
+    parse(app, option_helps(study), argc, argv, given);
+  } catch (const CLI::CallForHelp&) {
+    return plain_text(CommandLine::Action::print, app.help(), study);
+  } catch (const CLI::Success& success) {
+    return plain_text(CommandLine::Action::print, std::string(success.what()) + "\n", study);
+  }
+  if (given.list) return plain_text(CommandLine::Action::list, "", study);
+  CommandLine line{
+      CommandLine::Action::run,
+      "",
+      axis_texts(given, study.defaults),
+      {engine(given), number(given, "--threads", 1, 1, 1024),
+       number(given, "--repeat", 1, 1, 10'000),
+       number<std::uint64_t>(given, "--seed", 1, 0, std::numeric_limits<std::int32_t>::max())},
+      extra_options(given, study),
+      given.value("--csv", given.value("--resume", "")),
+      !given.has("--csv"),
+      given.value("--json", ""),
+      given.value("--resume", "")};
+  if (given.has("--seed")) line.axes.seed = line.run.seed;
+  check_files(line);
+  return line;
+}
+
+}  // namespace strongpoint

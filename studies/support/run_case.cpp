@@ -1,0 +1,175 @@
+#include "studies/support/run_case.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+
+#include "methods/core/neighbours.hpp"
+#include "problems/core/assembly.hpp"
+#include "problems/core/layout.hpp"
+#include "problems/core/voronoi.hpp"
+
+extern "C" {
+/// Present when UMFPACK's BLAS is OpenBLAS.
+void openblas_set_num_threads(int threads) __attribute__((weak));
+}
+
+namespace strongpoint {
+namespace {
+
+/// Adds the time spent inside the search engine to `seconds`.
+template <int Dim>
+class TimedSearch final : public NeighbourSearch<Dim> {
+ public:
+  TimedSearch(const NeighbourSearch<Dim>& inner, const StageClock& clock, double& seconds)
+      : inner_(inner), clock_(clock), seconds_(seconds) {}
+  Stencils nearest(const Points<Dim>& queries, int k, Ties ties) const override {
+    return clock_.time(seconds_, [&] { return inner_.nearest(queries, k, ties); });
+  }
+  Stencils within(const Points<Dim>& queries, std::span<const double> radii) const override {
+    return clock_.time(seconds_, [&] { return inner_.within(queries, radii); });
+  }
+
+ private:
+  const NeighbourSearch<Dim>& inner_;
+  const StageClock& clock_;
+  double& seconds_;
+};
+
+void set_threads(const RunOptions& options) {
+  omp_set_num_threads(options.threads);
+  if (openblas_set_num_threads != nullptr) openblas_set_num_threads(1);
+}
+
+template <int Dim>
+CaseResult run_once(const SteadyProblem<Dim>& problem, const CaseKey& key,
+                    const RunOptions& options) {
+  const StageClock clock(options.threads);
+  CaseResult result;
+  StageTimes& times = result.times;
+  reset_peak_memory();
+  const Discretisation<Dim> scene = discretise(problem, key, options, times);
+  const std::vector<std::string> fields = problem.fields();
+  const int field_count = static_cast<int>(fields.size());
+  const LinearSystem system = clock.time(times.assemble, [&] {
+    const EquationList equations =
+        make_form<Dim>(key.form)->equations(problem, scene.cloud, scene.derivatives);
+    return assemble(equations, scene.weights, scene.cloud.size(), field_count);
+  });
+  const LinearSolution linear = clock.time(times.solve, [&] { return solve(system, key.solver); });
+  times.peak_mb = peak_memory_mb();
+
+  const Solution<Dim> solution{
+      scene.cloud, Eigen::Map<const Eigen::MatrixXd>(linear.x.data(), field_count, scene.cloud.size()),
+      scene.weights, scene.derivatives};
+  const std::vector<std::string> names = problem.quantities();
+  const std::vector<double> values = problem.measure(solution);
+  for (std::size_t q = 0; q < names.size(); ++q) result.quantities.push_back({names[q], values[q], {}, {}});
+  result.nodes = scene.cloud.size();
+  result.unknowns = system.rows();
+  result.spacing = scene.cloud.spacing();
+  return result;
+}
+
+}  // namespace
+
+template <int Dim>
+PointCloud<Dim> make_case_cloud(const Domain<Dim>& domain, const CaseKey& key,
+                                const RunOptions& options) {
+  return make_cloud<Dim>(domain, key.cloud, LayoutRequest{key.level, options.seed});
+}
+
+template <int Dim>
+void compute_weights(Discretisation<Dim>& scene, const Domain<Dim>& domain,
+                     const Choices<Dim>& choices, const RunOptions& options,
+                     const StageClock& clock, StageTimes& times) {
+  if (const std::string why = choices.method->unsupported(scene.derivatives); !why.empty()) {
+    throw SkipCase(why);
+  }
+  const auto engine = clock.time(
+      times.neighbours, [&] { return make_search<Dim>(options.neighbours, scene.sites.nodes); });
+  if (choices.method->needs().volumes) {
+    double seconds = 0;
+    scene.sites.volumes =
+        clock.time(seconds, [&] { return voronoi_volumes<Dim>(scene.cloud, domain, *engine); });
+    times.voronoi += seconds;
+    times.prepare += seconds;
+  }
+  double searching = 0;
+  double selecting = 0;
+  const TimedSearch<Dim> search(*engine, clock, searching);
+  scene.stencils = clock.time(selecting, [&] {
+    return select_stencils<Dim>(*choices.rule, scene.sites, *choices.method, search);
+  });
+  times.neighbours += searching;
+  times.stencils += selecting - searching;
+  scene.weights = clock.time(times.weights, [&] {
+    return choices.method->weights(scene.sites, scene.stencils, scene.derivatives);
+  });
+}
+
+template <int Dim>
+Discretisation<Dim> discretise(const SteadyProblem<Dim>& problem, const CaseKey& key,
+                               const RunOptions& options, StageTimes& times) {
+  set_threads(options);
+  const StageClock clock(options.threads);
+  const Choices<Dim> choices(key);
+  const std::unique_ptr<Form<Dim>> form = make_form<Dim>(key.form);
+  if (const std::string why = form->unsupported(*choices.method); !why.empty()) throw SkipCase(why);
+  Discretisation<Dim> scene;
+  scene.cloud =
+      clock.time(times.cloud, [&] { return make_case_cloud<Dim>(problem.domain(), key, options); });
+  clock.time(times.prepare, [&] {
+    scene.derivatives = form->derivatives(problem, scene.cloud, *choices.method);
+    scene.derivatives.merge(problem.measured_derivatives());
+    scene.sites = form->sites(problem, scene.cloud, *choices.method);
+  });
+  compute_weights<Dim>(scene, problem.domain(), choices, options, clock, times);
+  return scene;
+}
+
+std::vector<std::string> steady_quantities(const CaseKey& key) {
+  return with_problem<SteadyProblem>(key.problem, "steady",
+                                     [](const auto& problem) { return problem.quantities(); });
+}
+
+CaseResult run_steady_case(const CaseKey& key, const RunOptions& options) {
+  return with_problem<SteadyProblem>(
+      key.problem, "steady", [&]<int Dim>(const SteadyProblem<Dim>& problem) {
+        CaseResult result = run_once<Dim>(problem, key, options);
+        for (int run = 1; run < options.repeat; ++run) {
+          result.times = fastest(result.times, run_once<Dim>(problem, key, options).times);
+        }
+        return result;
+      });
+}
+
+StageTimes fastest(const StageTimes& a, const StageTimes& b) {
+  return {.cloud = std::min(a.cloud, b.cloud),
+          .prepare = std::min(a.prepare, b.prepare),
+          .neighbours = std::min(a.neighbours, b.neighbours),
+          .stencils = std::min(a.stencils, b.stencils),
+          .weights = std::min(a.weights, b.weights),
+          .assemble = std::min(a.assemble, b.assemble),
+          .solve = std::min(a.solve, b.solve),
+          .voronoi = std::min(a.voronoi, b.voronoi),
+          .peak_mb = std::max(a.peak_mb, b.peak_mb)};
+}
+
+template PointCloud<1> make_case_cloud(const Domain<1>&, const CaseKey&, const RunOptions&);
+template PointCloud<2> make_case_cloud(const Domain<2>&, const CaseKey&, const RunOptions&);
+template PointCloud<3> make_case_cloud(const Domain<3>&, const CaseKey&, const RunOptions&);
+template void compute_weights(Discretisation<1>&, const Domain<1>&, const Choices<1>&,
+                              const RunOptions&, const StageClock&, StageTimes&);
+template void compute_weights(Discretisation<2>&, const Domain<2>&, const Choices<2>&,
+                              const RunOptions&, const StageClock&, StageTimes&);
+template void compute_weights(Discretisation<3>&, const Domain<3>&, const Choices<3>&,
+                              const RunOptions&, const StageClock&, StageTimes&);
+template Discretisation<1> discretise(const SteadyProblem<1>&, const CaseKey&, const RunOptions&,
+                                      StageTimes&);
+template Discretisation<2> discretise(const SteadyProblem<2>&, const CaseKey&, const RunOptions&,
+                                      StageTimes&);
+template Discretisation<3> discretise(const SteadyProblem<3>&, const CaseKey&, const RunOptions&,
+                                      StageTimes&);
+
+}  // namespace strongpoint

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "methods/core/registry.hpp"
+#include "problems/core/form.hpp"
+#include "problems/core/problem.hpp"
+#include "problems/core/solvers.hpp"
+#include "studies/support/stage_clock.hpp"
+#include "studies/support/study.hpp"
+
+namespace strongpoint {
+
+/// From a cloud to weights: what every study walks through, stage by stage.
+template <int Dim>
+struct Discretisation {
+  PointCloud<Dim> cloud;
+  Sites<Dim> sites;
+  Stencils stencils;
+  Derivatives<Dim> derivatives;
+  Weights weights;
+};
+
+/// The method and the rule of a case.
+template <int Dim>
+struct Choices {
+  std::unique_ptr<Method<Dim>> method;
+  std::unique_ptr<StencilRule<Dim>> rule;
+
+  explicit Choices(const CaseKey& key)
+      : method(make_method<Dim>(key.method).made), rule(make_rule<Dim>(key.stencil).made) {}
+};
+
+/// Chooses stencils and computes weights on sites already made, adding only what the method needs;
+/// the time of each stage is added to `times`. Throws SkipCase when the method cannot give the
+/// derivatives.
+template <int Dim>
+void compute_weights(Discretisation<Dim>& scene, const Domain<Dim>& domain,
+                     const Choices<Dim>& choices, const RunOptions& options,
+                     const StageClock& clock, StageTimes& times);
+
+/// Discretises a steady problem up to the weights. Throws SkipCase and CaseError.
+template <int Dim>
+Discretisation<Dim> discretise(const SteadyProblem<Dim>& problem, const CaseKey& key,
+                               const RunOptions& options, StageTimes& times);
+
+/// Makes the cloud of a case.
+template <int Dim>
+PointCloud<Dim> make_case_cloud(const Domain<Dim>& domain, const CaseKey& key,
+                                const RunOptions& options);
+
+/// Names of what a steady case measures. Throws SkipCase when the problem is of another kind.
+std::vector<std::string> steady_quantities(const CaseKey& key);
+
+/// Runs a steady case from cloud to measured quantities; the times are minima over `repeat` runs.
+/// Throws SkipCase and CaseError.
+CaseResult run_steady_case(const CaseKey& key, const RunOptions& options);
+
+/// Calls `function(problem)` with the problem of a spec as `Kind<Dim>`, or throws SkipCase saying
+/// that the study wants a `kind` problem.
+template <template <int> class Kind, class Function>
+auto with_problem(const std::string& spec, const std::string& kind, Function&& function) {
+  const NamedProblem named = make_problem(spec);
+  return std::visit(
+      [&]<int Dim>(const std::unique_ptr<Problem<Dim>>& problem) {
+        const auto* wanted = dynamic_cast<const Kind<Dim>*>(problem.get());
+        if (wanted == nullptr) {
+          throw SkipCase(spec + " is not a " + kind + " problem, which this study runs");
+        }
+        return function(*wanted);
+      },
+      named.made);
+}
+
+/// Keeps the smaller of two times of each stage, and the larger peak of memory.
+StageTimes fastest(const StageTimes& a, const StageTimes& b);
+
+}  // namespace strongpoint

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "methods/core/options.hpp"
+
+namespace strongpoint {
+
+/// One point of a study's case grid, in canonical specs.
+struct CaseKey {
+  std::string problem, method, stencil, cloud, form, solver;
+  int level = 0;  ///< nodes along the problem's reference side
+
+  bool operator==(const CaseKey&) const = default;
+};
+
+/// How cases are run, the same for every case of a table.
+struct RunOptions {
+  std::string neighbours = "auto";
+  int threads = 1;
+  int repeat = 1;          ///< timed stages take the minimum over this many runs
+  std::uint64_t seed = 1;  ///< for clouds whose spec gives none
+};
+
+/// One number of a case. A bad numerical outcome is a value, or no value with a reason; it is not a
+/// failure.
+struct Quantity {
+  std::string name;
+  std::optional<double> value;
+  std::string reason;
+  std::vector<std::string> extra;  ///< one text per extra column of the study
+};
+
+/// Seconds spent in each stage, and the peak memory of the case.
+struct StageTimes {
+  double cloud = 0, prepare = 0, neighbours = 0, stencils = 0, weights = 0, assemble = 0, solve = 0;
+  double voronoi = 0;  ///< the part of `prepare` spent on Voronoi cells
+  double peak_mb = 0;
+
+  double total() const {
+    return cloud + prepare + neighbours + stencils + weights + assemble + solve;
+  }
+};
+
+/// What running a case gives.
+struct CaseResult {
+  std::int64_t nodes = 0;
+  std::int64_t unknowns = 0;
+  double spacing = 0;  ///< (measure/N)^(1/Dim)
+  std::vector<Quantity> quantities;
+  StageTimes times;
+};
+
+/// The default of each axis, as a user would write it.
+struct AxisDefaults {
+  std::string problem, method, cloud = "grid", form = "collocation", solver = "umfpack";
+  std::string levels = "21,41,81";
+  std::string smoke_levels = "9,11";
+  std::string smoke_method;  ///< empty: as `method`
+};
+
+/// A study program: what it is called, what its axes default to, how it runs one case.
+struct Study {
+  std::string name, summary;
+  AxisDefaults defaults;
+  bool timed = false;                      ///< adds the timing columns
+  bool rated = true;                       ///< fills `rate` from level to level
+  std::vector<std::string> extra_columns;  ///< appended after the contract's columns
+  std::vector<OptionDoc> extra_options;    ///< `--key VALUE` options of this study
+  /// Names of the quantities a case gives, for rows of failed and skipped cases and to tell whether
+  /// a case in a resumed file is complete. May throw SkipCase.
+  std::function<std::vector<std::string>(const CaseKey&, const Options& extra)> quantities;
+  /// Runs a case. Throws CaseError (a failed row) or SkipCase (a skipped one).
+  std::function<CaseResult(const CaseKey&, const RunOptions&, const Options& extra)> run;
+};
+
+/// The whole of a study program: parses the command line, runs the case grid, writes the tables.
+/// Returns the exit status: 0 all rows ok or skipped, 1 a case failed or output could not be
+/// written, 2 bad arguments.
+int run_study(int argc, char** argv, const Study& study);
+
+}  // namespace strongpoint
