@@ -6,6 +6,7 @@ namespace strongpoint {
 /// Generalized Finite Difference Method: Taylor fit on the nodes of the star criterion.
 /// Source: Benito, Urena, Gavete 2001; thesis 1.4.1, signs in (1.59) corrected: the residual is
 /// u_j - u_i - Taylor terms. The thesis states no weight; T = r^-3 is the default here.
+/// In 3D two nodes an octant can lie on two planes at the faces of a grid; such stars are grown.
 MethodEntry method_gfdm() {
   return {{"gfdm",
            "Generalized Finite Difference Method: weighted Taylor fit on a star",
@@ -15,8 +16,10 @@ MethodEntry method_gfdm() {
             const NamedWeight weight = make_weight(options.text("weight"));
             options.set("weight", weight.spec);
             const int order = options.integer("order", 1, 8);
-            return make_taylor_method<Dim>("gfdm", order, weight.made, {1, 1.5, 2},
-                                           order == 2 ? "star" : "nearest");
+            return make_taylor_method<Dim>("gfdm", order, weight.made, lean_surplus(order),
+                                           order != 2 ? "nearest"
+                                           : Dim == 3 ? "grow_until[of=star]"
+                                                      : "star");
           })};
 }
 

@@ -95,15 +95,14 @@ MethodEntry method_zoned() {
            "one method inside, another at boundary nodes",
            {{"interior", "mfpm", "method at interior nodes"},
             {"boundary", "lsfdm", "method at boundary nodes"}}},
-          in_every_dimension<Method>(
-              []<int Dim>(Dimension<Dim>, Options& options) -> std::unique_ptr<Method<Dim>> {
-                Named<Method<Dim>> interior = make_method<Dim>(options.text("interior"));
-                Named<Method<Dim>> boundary = make_method<Dim>(options.text("boundary"));
-                options.set("interior", interior.spec);
-                options.set("boundary", boundary.spec);
-                return std::make_unique<Zoned<Dim>>(std::move(interior.made),
-                                                    std::move(boundary.made));
-              })};
+          in_every_dimension<Method>([]<int Dim>(Dimension<Dim>,
+                                                 Options& options) -> std::unique_ptr<Method<Dim>> {
+            Named<Method<Dim>> interior = make_method<Dim>(options.text("interior"));
+            Named<Method<Dim>> boundary = make_method<Dim>(options.text("boundary"));
+            options.set("interior", interior.spec);
+            options.set("boundary", boundary.spec);
+            return std::make_unique<Zoned<Dim>>(std::move(interior.made), std::move(boundary.made));
+          })};
 }
 
 }  // namespace strongpoint

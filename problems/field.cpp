@@ -17,7 +17,8 @@ struct Trig {
   }
 };
 
-/// Franke's function; Renka's in 3D; its y = const terms dropped in 1D. Source: Franke 1979, Renka 1988.
+/// Franke's function; Renka's in 3D; its y = const terms dropped in 1D. Source: Franke 1979, Renka
+/// 1988.
 struct Franke {
   template <class T, std::size_t Dim>
   T operator()(const std::array<T, Dim>& x) const {
@@ -115,12 +116,12 @@ ProblemEntry problem_field() {
             {"dim", "2", "space dimension, 1 to 3"},
             {"order", "2", "derivatives of order 1 to this are judged, 1 to 8"}}},
           [](const Options& options) -> AnyProblem {
-            const Function function = options.choice<Function>(
-                "name", {{"trig", Function::trig},
-                         {"franke", Function::franke},
-                         {"exponential", Function::exponential},
-                         {"cubic", Function::cubic},
-                         {"runge", Function::runge}});
+            const Function function =
+                options.choice<Function>("name", {{"trig", Function::trig},
+                                                  {"franke", Function::franke},
+                                                  {"exponential", Function::exponential},
+                                                  {"cubic", Function::cubic},
+                                                  {"runge", Function::runge}});
             const int order = options.integer("order", 1, 8);
             switch (options.integer("dim", 1, 3)) {
               case 1:

@@ -17,7 +17,8 @@ using Point2 = Point<2>;
 enum class Map { log, edge };
 enum Side { hole, bottom, right, top, left };
 
-/// [0,1]^2 without the disc r < a. Unit coordinates are (angle over 90 degrees, position along the ray).
+/// [0,1]^2 without the disc r < a. Unit coordinates are (angle over 90 degrees, position along the
+/// ray).
 class QuarterPlate final : public Domain<2> {
  public:
   QuarterPlate(double a, Map map) : a_(a), map_(map) {}
@@ -111,8 +112,10 @@ struct Kirsch {
     const T s3 = s * (3.0 - 4.0 * s * s);
     const T q = a / r;
     const double scale = tension * a / (8 * mu);
-    return {scale * ((kappa + 1.0) * c / q + 2.0 * q * ((1.0 + kappa) * c + c3) - 2.0 * q * q * q * c3),
-            scale * ((kappa - 3.0) * s / q + 2.0 * q * ((1.0 - kappa) * s + s3) - 2.0 * q * q * q * s3)};
+    return {
+        scale * ((kappa + 1.0) * c / q + 2.0 * q * ((1.0 + kappa) * c + c3) - 2.0 * q * q * q * c3),
+        scale *
+            ((kappa - 3.0) * s / q + 2.0 * q * ((1.0 - kappa) * s + s3) - 2.0 * q * q * q * s3)};
   }
 };
 
@@ -141,9 +144,11 @@ class PlateHole final : public SteadyProblem<2> {
       write_symmetry(node, plane, write);
     } else if (node.marks.size() > 1) {
       // Two loaded sides meet: the normal stress of each.
-      for (const BoundaryMark<2>& mark : node.marks) write_traction(node, mark.normal, mark.normal, write);
+      for (const BoundaryMark<2>& mark : node.marks)
+        write_traction(node, mark.normal, mark.normal, write);
     } else {
-      for (int i = 0; i < 2; ++i) write_traction(node, Point2::Unit(i), node.marks[0].normal, write);
+      for (int i = 0; i < 2; ++i)
+        write_traction(node, Point2::Unit(i), node.marks[0].normal, write);
     }
   }
 
@@ -215,8 +220,8 @@ class PlateHole final : public SteadyProblem<2> {
     write.equals(0);
   }
 
-  /// The component along m of the traction on a face with normal n equals the exact one; the hole is
-  /// free because the exact solution is.
+  /// The component along m of the traction on a face with normal n equals the exact one; the hole
+  /// is free because the exact solution is.
   void write_traction(const Node<2>& node, const Point2& m, const Point2& n,
                       EquationWriter<2>& write) const {
     add_traction<2>(write, material_, m, n);
@@ -240,8 +245,9 @@ ProblemEntry problem_plate_hole() {
            "quarter plate with a hole under tension, plane strain, Kirsch's solution",
            {{"a", "0.2", "radius of the hole, 0.01 to 0.9"},
             {"nu", "0.33", "Poisson's ratio, 0 to 0.4999"},
-            {"map", "log", "log | edge: spacing of a grid's nodes along a ray, isotropic at the hole or "
-                           "uniform"}}},
+            {"map", "log",
+             "log | edge: spacing of a grid's nodes along a ray, isotropic at the hole or "
+             "uniform"}}},
           [](const Options& options) -> AnyProblem {
             return std::make_unique<PlateHole>(
                 options.number("a", 0.01, 0.9), options.number("nu", 0, 0.4999),

@@ -14,8 +14,8 @@ struct Exact {
 
 /// Poisson's equation on [0,1]^3 with u = sin(2x+1) cos(3y) sin(z+1). Source: manufactured.
 ProblemEntry problem_poisson_cube() {
-  return manufactured_poisson<3, Exact>("poisson_cube",
-                                        "Poisson's equation on the unit cube, manufactured solution");
+  return manufactured_poisson<3, Exact>(
+      "poisson_cube", "Poisson's equation on the unit cube, manufactured solution");
 }
 
 }  // namespace strongpoint

@@ -14,8 +14,8 @@ struct Exact {
 
 /// Poisson's equation on [0,1]^2 with u = sin(2x+1) cos(3y). Source: manufactured.
 ProblemEntry problem_poisson_square() {
-  return manufactured_poisson<2, Exact>("poisson_square",
-                                        "Poisson's equation on the unit square, manufactured solution");
+  return manufactured_poisson<2, Exact>(
+      "poisson_square", "Poisson's equation on the unit square, manufactured solution");
 }
 
 }  // namespace strongpoint

@@ -1,7 +1,8 @@
 #include "studies/support/run_case.hpp"
 #include "studies/support/study.hpp"
 
-/// Errors of steady problems under refinement, with their observed orders and the time of each stage.
+/// Errors of steady problems under refinement, with their observed orders and the time of each
+/// stage.
 int main(int argc, char** argv) {
   using namespace strongpoint;  // NOLINT(google-build-using-namespace)
   Study study;

@@ -86,8 +86,8 @@ CaseResult run(const FieldProblem<Dim>& problem, const CaseKey& key, const RunOp
 }  // namespace
 }  // namespace strongpoint
 
-/// Errors of derivative weights on a smooth function, derivative by derivative, interior and boundary
-/// apart.
+/// Errors of derivative weights on a smooth function, derivative by derivative, interior and
+/// boundary apart.
 int main(int argc, char** argv) {
   using namespace strongpoint;  // NOLINT(google-build-using-namespace)
   Study study;
@@ -100,9 +100,8 @@ int main(int argc, char** argv) {
   study.quantities = quantities;
   study.run = [](const CaseKey& key, const RunOptions& options, const Options&) {
     return with_problem<FieldProblem>(
-        key.problem, "field", [&]<int Dim>(const FieldProblem<Dim>& problem) {
-          return run<Dim>(problem, key, options);
-        });
+        key.problem, "field",
+        [&]<int Dim>(const FieldProblem<Dim>& problem) { return run<Dim>(problem, key, options); });
   };
   return run_study(argc, argv, study);
 }

@@ -61,7 +61,9 @@ void append_phases(const SteadyProblem<Dim>& problem, const CaseKey& key, const 
   double sum = 0;
   for (double phase : seconds) sum += phase;
   for (std::size_t i = 0; i < seconds.size(); ++i) {
-    result.push_back({phase_names[i], seconds[i], {},
+    result.push_back({phase_names[i],
+                      seconds[i],
+                      {},
                       {algorithm.name, fmt::format("{:.2f}", 100 * seconds[i] / sum)}});
   }
 }
@@ -75,11 +77,10 @@ CaseResult run(const CaseKey& key, const RunOptions& options, const Options& ext
                        {"total", total, {}, {"", ""}}};
   if (!is_taylor_fit(key.method)) return result;
   for (const NamedAlgorithm& algorithm : algorithms_of(extra)) {
-    with_problem<SteadyProblem>(key.problem, "steady",
-                                [&]<int Dim>(const SteadyProblem<Dim>& problem) {
-                                  append_phases<Dim>(problem, key, options, algorithm,
-                                                     result.quantities);
-                                });
+    with_problem<SteadyProblem>(
+        key.problem, "steady", [&]<int Dim>(const SteadyProblem<Dim>& problem) {
+          append_phases<Dim>(problem, key, options, algorithm, result.quantities);
+        });
   }
   return result;
 }
@@ -87,8 +88,8 @@ CaseResult run(const CaseKey& key, const RunOptions& options, const Options& ext
 }  // namespace
 }  // namespace strongpoint
 
-/// Seconds of each stage of a solve, of the Voronoi cells, and of the phases in which the thesis builds
-/// its operators.
+/// Seconds of each stage of a solve, of the Voronoi cells, and of the phases in which the thesis
+/// builds its operators.
 int main(int argc, char** argv) {
   using namespace strongpoint;  // NOLINT(google-build-using-namespace)
   Study study;
@@ -100,9 +101,10 @@ int main(int argc, char** argv) {
   study.timed = true;
   study.rated = false;
   study.extra_columns = {"algorithm", "share"};
-  study.extra_options = {{"algorithms", "both",
-                          "both | sort | cells | none: how the instrumented run finds neighbours and "
-                          "judges conditions (sort: full sort, 1-norm estimate; cells: cells, SVD)"}};
+  study.extra_options = {
+      {"algorithms", "both",
+       "both | sort | cells | none: how the instrumented run finds neighbours and "
+       "judges conditions (sort: full sort, 1-norm estimate; cells: cells, SVD)"}};
   study.quantities = quantities;
   study.run = run;
   return run_study(argc, argv, study);

@@ -136,11 +136,10 @@ class PlateSides final : public Domain<2> {
 };
 
 TEST_F(Files, ReadThePlateWithAHole) {
-  const auto data =
-      std::filesystem::path(__FILE__).parent_path().parent_path() / "problems" / "data";
-  ASSERT_TRUE(std::filesystem::exists(data / "plate_hole.geo")) << "compile with absolute paths";
+  const std::string script = std::string(STRONGPOINT_SOURCE_DIR) + "/problems/data/plate_hole.geo";
+  ASSERT_TRUE(std::filesystem::exists(script)) << script;
   const PlateSides plate;
-  const PointCloud<2> cloud = load<2>(plate, mesh((data / "plate_hole.geo").string(), 2));
+  const PointCloud<2> cloud = load<2>(plate, mesh(script, 2));
   // Chords cut segments off the hole: 20 of h^3 / (12 r) with h = r (pi/2) / 20.
   EXPECT_NEAR(cloud.measure, plate.measure(), 1e-4);
   EXPECT_GT(cloud.measure, plate.measure() - 1e-3);

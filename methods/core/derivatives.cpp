@@ -53,8 +53,9 @@ template <int Dim>
 int Derivatives<Dim>::index(const MultiIndex<Dim>& alpha) const {
   const int place = find(alpha);
   if (place < 0) {
-    throw std::logic_error(fmt::format(
-        "derivative {} was not declared; add it to the derivatives asked for", name_of<Dim>(alpha)));
+    throw std::logic_error(
+        fmt::format("derivative {} was not declared; add it to the derivatives asked for",
+                    name_of<Dim>(alpha)));
   }
   return place;
 }

@@ -16,21 +16,21 @@ namespace strongpoint {
 /// What a kernel offers: factorise the local system of a stencil, then evaluate derivatives of the
 /// local approximation anywhere near it, all in scaled coordinates.
 template <class Kernel, int Dim>
-concept LocalKernel =
-    requires(const Kernel kernel, const LocalStencil<Dim>& stencil, typename Kernel::Workspace& work,
-             const Point<Dim>& offset, const Derivatives<Dim>& derivatives,
-             Eigen::Map<Eigen::MatrixXd> weights, Scaling scaling) {
-      { kernel.needed_nodes() } -> std::same_as<int>;
-      { kernel.factorise(stencil, work) } -> std::same_as<LocalOutcome>;
-      { kernel.evaluate(stencil, work, offset, derivatives, weights) };
-      { kernel.local_matrix(stencil, scaling) } -> std::same_as<Eigen::MatrixXd>;
-      { kernel.unsupported(derivatives) } -> std::same_as<std::string>;
-    };
+concept LocalKernel = requires(const Kernel kernel, const LocalStencil<Dim>& stencil,
+                               typename Kernel::Workspace& work, const Point<Dim>& offset,
+                               const Derivatives<Dim>& derivatives,
+                               Eigen::Map<Eigen::MatrixXd> weights, Scaling scaling) {
+  { kernel.needed_nodes() } -> std::same_as<int>;
+  { kernel.factorise(stencil, work) } -> std::same_as<LocalOutcome>;
+  {kernel.evaluate(stencil, work, offset, derivatives, weights)};
+  { kernel.local_matrix(stencil, scaling) } -> std::same_as<Eigen::MatrixXd>;
+  { kernel.unsupported(derivatives) } -> std::same_as<std::string>;
+};
 
 /// A method whose weights come from a kernel, stencil by stencil: a static loop over the anchors,
 /// parallel, with one workspace a thread and no allocation once the workspaces have grown.
 template <int Dim, class Kernel>
-  requires LocalKernel<Kernel, Dim>
+requires LocalKernel<Kernel, Dim>
 class LocalMethod : public Method<Dim> {
  public:
   /// What stays the same for all kernels of one method.
@@ -95,13 +95,11 @@ Weights weights_on_stencils(const Sites<Dim>& sites, const Stencils& stencils, i
 }
 
 template <int Dim, class Kernel>
-  requires LocalKernel<Kernel, Dim>
-LocalOutcome LocalMethod<Dim, Kernel>::fill(const Sites<Dim>& sites, const Stencils& stencils,
-                                            int anchor, int first_point,
-                                            const Derivatives<Dim>& derivatives,
-                                            LocalStencil<Dim>& local,
-                                            typename Kernel::Workspace& work,
-                                            Weights& weights) const {
+requires LocalKernel<Kernel, Dim> LocalOutcome LocalMethod<Dim, Kernel>::fill(
+    const Sites<Dim>& sites, const Stencils& stencils, int anchor, int first_point,
+    const Derivatives<Dim>& derivatives, LocalStencil<Dim>& local, typename Kernel::Workspace& work,
+    Weights& weights)
+const {
   LocalOutcome outcome = local.gather(sites, stencils[anchor], anchor);
   if (outcome == LocalOutcome::ok) outcome = kernel_.factorise(local, work);
   if (outcome != LocalOutcome::ok) return outcome;
@@ -118,9 +116,9 @@ LocalOutcome LocalMethod<Dim, Kernel>::fill(const Sites<Dim>& sites, const Stenc
 }
 
 template <int Dim, class Kernel>
-  requires LocalKernel<Kernel, Dim>
-Weights LocalMethod<Dim, Kernel>::weights(const Sites<Dim>& sites, const Stencils& stencils,
-                                          const Derivatives<Dim>& derivatives) const {
+requires LocalKernel<Kernel, Dim> Weights LocalMethod<Dim, Kernel>::weights(
+    const Sites<Dim>& sites, const Stencils& stencils, const Derivatives<Dim>& derivatives)
+const {
   check_needs(sites);
   Weights weights = weights_on_stencils(sites, stencils, derivatives.size());
   std::vector<LocalOutcome> outcomes(sites.anchor_count(), LocalOutcome::ok);
@@ -142,11 +140,10 @@ Weights LocalMethod<Dim, Kernel>::weights(const Sites<Dim>& sites, const Stencil
 }
 
 template <int Dim, class Kernel>
-  requires LocalKernel<Kernel, Dim>
-std::vector<double> LocalMethod<Dim, Kernel>::condition(const Sites<Dim>& sites,
-                                                        std::span<const int> anchors,
-                                                        const Stencils& stencils, Scaling scaling,
-                                                        ConditionNorm norm) const {
+requires LocalKernel<Kernel, Dim> std::vector<double> LocalMethod<Dim, Kernel>::condition(
+    const Sites<Dim>& sites, std::span<const int> anchors, const Stencils& stencils,
+    Scaling scaling, ConditionNorm norm)
+const {
   check_needs(sites);
   std::vector<double> result(anchors.size());
 #pragma omp parallel
@@ -154,8 +151,7 @@ std::vector<double> LocalMethod<Dim, Kernel>::condition(const Sites<Dim>& sites,
     LocalStencil<Dim> local;
 #pragma omp for schedule(dynamic, 64)
     for (std::size_t i = 0; i < anchors.size(); ++i) {
-      const LocalOutcome outcome = 
-          local.gather(sites, stencils[static_cast<int>(i)], anchors[i]);
+      const LocalOutcome outcome = local.gather(sites, stencils[static_cast<int>(i)], anchors[i]);
       const bool usable = outcome == LocalOutcome::ok;
       result[i] = condition_number(
           usable ? kernel_.local_matrix(local, scaling) : Eigen::MatrixXd::Zero(1, 1), norm);

@@ -34,7 +34,8 @@ bool HouseholderQr::factorise(double tolerance) {
     diagonal_[k] = column[k] > 0 ? -length : length;
     column[k] -= diagonal_[k];
     beta_[k] = -1 / (diagonal_[k] * column[k]);
-    for (int j = k + 1; j < cols_; ++j) reflect(k, a_.data() + static_cast<std::ptrdiff_t>(j) * rows_);
+    for (int j = k + 1; j < cols_; ++j)
+      reflect(k, a_.data() + static_cast<std::ptrdiff_t>(j) * rows_);
   }
   return true;
 }

@@ -8,10 +8,11 @@ namespace strongpoint {
 /// Householder QR of a tall dense matrix whose storage is reused from one stencil to the next.
 class HouseholderQr {
  public:
-  /// Storage for a (rows, cols) matrix, column after column, rows >= cols, to be filled by the caller.
+  /// Storage for a (rows, cols) matrix, column after column, rows >= cols, to be filled by the
+  /// caller.
   double* prepare(int rows, int cols);
-  /// Factorises in place. False when some column lies within `tolerance`, relative to its own length,
-  /// of the span of the columns before it.
+  /// Factorises in place. False when some column lies within `tolerance`, relative to its own
+  /// length, of the span of the columns before it.
   bool factorise(double tolerance);
   /// Solves R^T y = g, g (cols) becoming y.
   void solve_transposed_r(std::span<double> g) const;

@@ -28,16 +28,19 @@ bool has_coincident_nodes(const LocalStencil<Dim>& stencil) {
 std::string explain(LocalOutcome outcome, int size, int needed) {
   switch (outcome) {
     case LocalOutcome::too_small:
-      return fmt::format("has {} nodes but at least {} are needed; ask for a larger k", size, needed);
+      return fmt::format("has {} nodes but at least {} are needed; ask for a larger k", size,
+                         needed);
     case LocalOutcome::singular:
       return fmt::format(
-          "of {} nodes is degenerate (nodes on a line or another curve of the local degree); ask for a "
+          "of {} nodes is degenerate (nodes on a line or another curve of the local degree); ask "
+          "for a "
           "larger k or the rule grow_until",
           size);
     case LocalOutcome::coincident:
       return "holds two nodes at the same place; remove one of them";
     case LocalOutcome::no_centre:
-      return "has no node at its anchor, which this method needs; use a method whose value is unknown";
+      return "has no node at its anchor, which this method needs; use a method whose value is "
+             "unknown";
     case LocalOutcome::not_finite:
       return "gives weights that are not finite; check the nodes and ask for a larger k";
     case LocalOutcome::ok:

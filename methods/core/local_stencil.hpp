@@ -24,11 +24,11 @@ enum class LocalOutcome : std::uint8_t {
 /// One stencil in coordinates scaled by its radius, gathered once for a kernel.
 template <int Dim>
 struct LocalStencil {
-  int size = 0;                 ///< n, nodes, the centre included
-  int centre = -1;              ///< position of the node at the anchor, -1 when there is none
-  double radius = 1;            ///< R, the largest distance from the anchor
-  std::vector<double> z;        ///< (Dim, n) positions relative to the anchor over R, node after node
-  std::vector<double> rho;      ///< (n) distances over R
+  int size = 0;             ///< n, nodes, the centre included
+  int centre = -1;          ///< position of the node at the anchor, -1 when there is none
+  double radius = 1;        ///< R, the largest distance from the anchor
+  std::vector<double> z;    ///< (Dim, n) positions relative to the anchor over R, node after node
+  std::vector<double> rho;  ///< (n) distances over R
   std::vector<double> volumes;  ///< (n) cell measures over R^Dim, empty when the sites have none
 
   /// Position of node j.

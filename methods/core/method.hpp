@@ -15,10 +15,10 @@ namespace strongpoint {
 
 /// What a method declares of itself; the contract tests check just that.
 struct Promises {
-  int reproduces = -1;         ///< highest polynomial degree differentiated exactly, -1 for none
-  bool scale_covariant = true; ///< weights of a derivative of order q scale as length^-q
-  bool interpolates = true;    ///< nodal parameters are the values at the nodes
-  bool local = true;           ///< weights of a point depend on its own stencil only
+  int reproduces = -1;          ///< highest polynomial degree differentiated exactly, -1 for none
+  bool scale_covariant = true;  ///< weights of a derivative of order q scale as length^-q
+  bool interpolates = true;     ///< nodal parameters are the values at the nodes
+  bool local = true;            ///< weights of a point depend on its own stencil only
 };
 
 /// How the local matrix is scaled before its condition is judged.

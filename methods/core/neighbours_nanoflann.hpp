@@ -23,8 +23,8 @@ class NanoflannEngine {
   }
 
  private:
-  /// Nodes in a leaf, measured best between 8 and 16 for stencils of 9 to 30 nodes.
-  static constexpr std::size_t leaf_size = 12;
+  /// Nodes in a leaf: nanoflann's own default.
+  static constexpr std::size_t leaf_size = 10;
 
   /// The nodes as nanoflann reads them; the member names are nanoflann's.
   struct Nodes {

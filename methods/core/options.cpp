@@ -40,7 +40,8 @@ double Options::number(std::string_view key, double least, double most) const {
   const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), result);
   const bool parsed = error == std::errc() && end == value.data() + value.size();
   if (!parsed || !std::isfinite(result) || result < least || result > most) {
-    throw UsageError(fmt::format("{}={} must be a number from {} to {}", where(key), value, least, most));
+    throw UsageError(
+        fmt::format("{}={} must be a number from {} to {}", where(key), value, least, most));
   }
   return result;
 }
@@ -67,6 +68,8 @@ std::string Options::canonical() const {
   return to_string(spec);
 }
 
-void Options::set(std::string_view key, std::string value) { values_[index(key)] = std::move(value); }
+void Options::set(std::string_view key, std::string value) {
+  values_[index(key)] = std::move(value);
+}
 
 }  // namespace strongpoint

@@ -60,7 +60,8 @@ class Options {
   std::size_t index(std::string_view key) const;
 };
 
-/// Finds the entry called `name`, or throws UsageError that lists the known names. `Entry` has `info`.
+/// Finds the entry called `name`, or throws UsageError that lists the known names. `Entry` has
+/// `info`.
 template <class Entry>
 const Entry& find_entry(const std::vector<Entry>& entries, std::string_view kind,
                         std::string_view name) {
@@ -73,7 +74,8 @@ const Entry& find_entry(const std::vector<Entry>& entries, std::string_view kind
 }
 
 template <class T>
-T Options::choice(std::string_view key, const std::vector<std::pair<std::string, T>>& choices) const {
+T Options::choice(std::string_view key,
+                  const std::vector<std::pair<std::string, T>>& choices) const {
   std::string known;
   for (const auto& [name, value] : choices) {
     if (name == text(key)) return value;

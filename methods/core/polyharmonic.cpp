@@ -11,7 +11,8 @@
 namespace strongpoint {
 namespace {
 
-/// A polynomial column this close to the span of the others means that the nodes lie on its zero set.
+/// A polynomial column this close to the span of the others means that the nodes lie on its zero
+/// set.
 constexpr double rank_tolerance = 1e-11;
 /// Smallest pivot over diagonal entry of the projected kernel matrix that is trusted as definite.
 constexpr double pivot_tolerance = 1e-14;
@@ -29,8 +30,8 @@ RadialPowerDerivative<Dim>::RadialPowerDerivative(int power, const MultiIndex<Di
     int outer = 0;  // order of the derivative of f(s) = s^(power/2)
     for (int c = 0; c < Dim; ++c) {
       const int left = alpha[c] - 2 * j[c];
-      summand.coefficient *= factorial_of(alpha[c]) / (factorial_of(j[c]) * factorial_of(left)) *
-                             std::pow(2.0, left);
+      summand.coefficient *=
+          factorial_of(alpha[c]) / (factorial_of(j[c]) * factorial_of(left)) * std::pow(2.0, left);
       summand.exponents[c] = left;
       outer += alpha[c] - j[c];
     }
@@ -64,11 +65,12 @@ template <int Dim>
 PolyharmonicFit<Dim>::PolyharmonicFit(int phs, int degree)
     : phs_(phs), monomials_(Derivatives<Dim>::between_orders(0, degree)) {
   if (phs % 2 == 0) {
-    throw UsageError(fmt::format("rbf_fd: phs={} must be odd: even powers of r are polynomials", phs));
+    throw UsageError(
+        fmt::format("rbf_fd: phs={} must be odd: even powers of r are polynomials", phs));
   }
   if (degree < (phs - 1) / 2) {
-    throw UsageError(fmt::format("rbf_fd: phs={} needs degree={} at least, got {}", phs,
-                                 (phs - 1) / 2, degree));
+    throw UsageError(
+        fmt::format("rbf_fd: phs={} needs degree={} at least, got {}", phs, (phs - 1) / 2, degree));
   }
 }
 

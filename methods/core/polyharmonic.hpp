@@ -13,8 +13,8 @@
 namespace strongpoint {
 
 /// A derivative of r^k as a sum of c * x^a * r^(k - 2q).
-/// Source: chain rule for f(s), s = |x|^2: d^n f/dx^n = sum_j n!/(j!(n-2j)!) (2x)^(n-2j) f^(n-j)(s),
-/// one such sum per coordinate.
+/// Source: chain rule for f(s), s = |x|^2: d^n f/dx^n = sum_j n!/(j!(n-2j)!) (2x)^(n-2j)
+/// f^(n-j)(s), one such sum per coordinate.
 template <int Dim>
 class RadialPowerDerivative {
  public:
@@ -33,18 +33,18 @@ class RadialPowerDerivative {
 };
 
 /// Local interpolation by polyharmonic splines r^phs with all polynomials up to a degree.
-/// The saddle-point system is solved in the null space of the polynomial constraints, where r^phs is
-/// definite. Source: Flyer, Fornberg, Bayona, Barnett 2016; Wendland 2005, theorem 8.16.
+/// The saddle-point system is solved in the null space of the polynomial constraints, where r^phs
+/// is definite. Source: Flyer, Fornberg, Bayona, Barnett 2016; Wendland 2005, theorem 8.16.
 template <int Dim>
 class PolyharmonicFit {
  public:
   /// Buffers of one thread.
   struct Workspace {
-    HouseholderQr polynomials;     ///< QR of the (n, m) polynomial matrix
-    Ldlt definite;                 ///< projected r^phs, (n - m, n - m)
-    std::vector<double> kernel;    ///< Q^T Phi Q, (n, n)
-    std::vector<double> column;    ///< (n)
-    std::vector<double> radial;    ///< (n)
+    HouseholderQr polynomials;       ///< QR of the (n, m) polynomial matrix
+    Ldlt definite;                   ///< projected r^phs, (n - m, n - m)
+    std::vector<double> kernel;      ///< Q^T Phi Q, (n, n)
+    std::vector<double> column;      ///< (n)
+    std::vector<double> radial;      ///< (n)
     std::vector<double> constraint;  ///< (m)
     Derivatives<Dim> prepared;       ///< the derivatives that `radials` belongs to
     std::vector<RadialPowerDerivative<Dim>> radials;

@@ -17,8 +17,8 @@ class StencilRule {
   StencilRule& operator=(const StencilRule&) = delete;
   virtual ~StencilRule() = default;
 
-  /// One stencil for each anchor listed, sorted by (distance, node id). Throws SkipCase when the sites
-  /// cannot serve the rule (an index block on a cloud without structure).
+  /// One stencil for each anchor listed, sorted by (distance, node id). Throws SkipCase when the
+  /// sites cannot serve the rule (an index block on a cloud without structure).
   virtual Stencils select(const Sites<Dim>& sites, std::span<const int> anchors,
                           const Method<Dim>& method, const NeighbourSearch<Dim>& search) const = 0;
 };

@@ -23,19 +23,19 @@ struct IndexBlock {
   std::array<int, Dim> shape;
 };
 
-/// Everything a method may look at: where unknowns live, where stencils are chosen, where derivatives
-/// are evaluated. Made by a form from the cloud and the problem.
+/// Everything a method may look at: where unknowns live, where stencils are chosen, where
+/// derivatives are evaluated. Made by a form from the cloud and the problem.
 template <int Dim>
 struct Sites {
-  Points<Dim> nodes;                    ///< (Dim, N) carry the unknowns
-  Points<Dim> anchors;                  ///< (Dim, A) a stencil is chosen and factorised at each
-  std::vector<int> anchor_node;         ///< (A) node at the anchor, -1 when there is none
-  std::vector<Zone> anchor_zone;        ///< (A)
-  std::vector<std::uint8_t> wanted;     ///< (A) 0: no derivative is needed, the stencil stays empty
-  Points<Dim> points;                   ///< (Dim, P) derivatives are evaluated here
-  std::vector<int> point_anchor;        ///< (P) anchor of each point, ascending
-  Eigen::VectorXd volumes;              ///< (N) cell measures, empty unless needed
-  std::optional<IndexBlock<Dim>> block; ///< structured clouds only
+  Points<Dim> nodes;                 ///< (Dim, N) carry the unknowns
+  Points<Dim> anchors;               ///< (Dim, A) a stencil is chosen and factorised at each
+  std::vector<int> anchor_node;      ///< (A) node at the anchor, -1 when there is none
+  std::vector<Zone> anchor_zone;     ///< (A)
+  std::vector<std::uint8_t> wanted;  ///< (A) 0: no derivative is needed, the stencil stays empty
+  Points<Dim> points;                ///< (Dim, P) derivatives are evaluated here
+  std::vector<int> point_anchor;     ///< (P) anchor of each point, ascending
+  Eigen::VectorXd volumes;           ///< (N) cell measures, empty unless needed
+  std::optional<IndexBlock<Dim>> block;  ///< structured clouds only
 
   int node_count() const { return static_cast<int>(nodes.cols()); }
   int anchor_count() const { return static_cast<int>(anchors.cols()); }

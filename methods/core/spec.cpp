@@ -18,7 +18,8 @@ std::string_view trimmed(std::string_view text) {
 }
 
 [[noreturn]] void malformed(std::string_view text, std::string_view why) {
-  throw UsageError(fmt::format("malformed spec '{}': {}; write name or name[key=value,...]", text, why));
+  throw UsageError(
+      fmt::format("malformed spec '{}': {}; write name or name[key=value,...]", text, why));
 }
 
 bool is_name(std::string_view text) {
@@ -71,9 +72,8 @@ Spec parse_spec(std::string_view text) {
     std::string value(trimmed(std::string_view(part).substr(equals + 1)));
     if (!is_name(key)) malformed(text, fmt::format("'{}' is not a key", key));
     if (value.empty()) malformed(text, fmt::format("key '{}' has no value", key));
-    const bool repeated =
-        std::any_of(spec.arguments.begin(), spec.arguments.end(),
-                    [&](const auto& argument) { return argument.first == key; });
+    const bool repeated = std::any_of(spec.arguments.begin(), spec.arguments.end(),
+                                      [&](const auto& argument) { return argument.first == key; });
     if (repeated) malformed(text, fmt::format("key '{}' is given twice", key));
     spec.arguments.emplace_back(std::move(key), std::move(value));
   }

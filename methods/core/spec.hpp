@@ -7,7 +7,8 @@
 
 namespace strongpoint {
 
-/// What a user writes to choose something: `name[key=value,...]`, where a value may itself be a spec.
+/// What a user writes to choose something: `name[key=value,...]`, where a value may itself be a
+/// spec.
 struct Spec {
   std::string name;
   std::vector<std::pair<std::string, std::string>> arguments;  ///< in the order written

@@ -6,8 +6,8 @@
 
 namespace strongpoint {
 
-/// The nodes used at each anchor, in compressed rows. Each stencil is sorted by (distance, node id);
-/// an anchor that needs no derivative has an empty one.
+/// The nodes used at each anchor, in compressed rows. Each stencil is sorted by (distance, node
+/// id); an anchor that needs no derivative has an empty one.
 struct Stencils {
   std::vector<std::int64_t> offsets{0};  ///< (anchors + 1)
   std::vector<int> nodes;                ///< (entries)

@@ -7,12 +7,13 @@
 
 #include "methods/core/error.hpp"
 #include "methods/core/monomial.hpp"
+#include "methods/core/stencil_size.hpp"
 
 namespace strongpoint {
 namespace {
 
-/// Smallest pivot over diagonal of the normal equations that still leaves about ten digits; below it
-/// the weighted Vandermonde matrix is factorised instead.
+/// Smallest pivot over diagonal of the normal equations that still leaves about ten digits; below
+/// it the weighted Vandermonde matrix is factorised instead.
 constexpr double pivot_tolerance = 1e-6;
 /// A column this close to the span of the others makes the fit singular.
 constexpr double rank_tolerance = 1e-11;
@@ -27,7 +28,8 @@ TaylorFit<Dim>::TaylorFit(int order, std::shared_ptr<const WeightFunction> weigh
       weight_(std::move(weight)),
       monomials_(Derivatives<Dim>::between_orders(1, order)) {
   if (order < 1 || order > 8) {
-    throw UsageError(fmt::format("a Taylor fit of order {} is not offered; allowed: 1 to 8", order));
+    throw UsageError(
+        fmt::format("a Taylor fit of order {} is not offered; allowed: 1 to 8", order));
   }
   for (const MultiIndex<Dim>& alpha : monomials_) {
     int axis = 0;
@@ -113,7 +115,8 @@ void TaylorFit<Dim>::evaluate(const LocalStencil<Dim>& stencil, Workspace& work,
   for (int d = 0; d < derivatives.size(); ++d) {
     std::vector<double>& v = work.right_hand_side;
     std::fill(v.begin(), v.end(), 0.0);
-    for (int a = 0; a < m; ++a) v[a] = monomial_derivative<Dim>(monomials_[a], derivatives[d], offset);
+    for (int a = 0; a < m; ++a)
+      v[a] = monomial_derivative<Dim>(monomials_[a], derivatives[d], offset);
     if (work.by_qr) {
       work.qr.solve_transposed_r({v.data(), v.data() + m});
       work.qr.apply_q({v.data(), v.data() + stencil.size});
@@ -177,12 +180,13 @@ std::unique_ptr<Method<Dim>> make_taylor_method(std::string name, int order,
   const Needs needs{.volumes = weight->uses_volumes()};
   TaylorFit<Dim> fit(order, std::move(weight));
   const double factor = Dim == 1 ? surplus.in_1d : Dim == 2 ? surplus.in_2d : surplus.in_3d;
-  const int size = static_cast<int>(std::ceil(factor * fit.needed_nodes() - 1e-9));
+  const int size = std::max(static_cast<int>(std::ceil(factor * fit.needed_nodes() - 1e-9)),
+                            boundary_lattice_size<Dim>(order));
   Promises promises;
   promises.reproduces = order;
   return std::make_unique<TaylorMethod<Dim>>(
       std::move(fit), typename TaylorMethod<Dim>::Traits{std::move(name), promises, needs, size,
-                                                          std::move(default_stencil)});
+                                                         std::move(default_stencil)});
 }
 
 template class TaylorFit<1>;

@@ -15,8 +15,9 @@ namespace strongpoint {
 
 /// Weighted least-squares fit of the Taylor series about a node whose value is known:
 /// minimise sum_j T_j^2 (u_j - u_i - sum_a c_a (x_j - x_i)^a)^2 over 1 <= |a| <= order.
-/// Source: novel and original MFPM (thesis 3.1, 3.2) with projection functions equal to the monomials,
-/// GFDM (Benito et al. 2001) and LSFDM (Ding et al. 2004) are this fit with different weights T.
+/// Source: novel and original MFPM (thesis 3.1, 3.2) with projection functions equal to the
+/// monomials, GFDM (Benito et al. 2001) and LSFDM (Ding et al. 2004) are this fit with different
+/// weights T.
 template <int Dim>
 class TaylorFit {
  public:
@@ -42,8 +43,8 @@ class TaylorFit {
   /// Weights (derivatives, n) at `offset` from the centre, all in units of the stencil radius.
   void evaluate(const LocalStencil<Dim>& stencil, Workspace& work, const Point<Dim>& offset,
                 const Derivatives<Dim>& derivatives, Eigen::Map<Eigen::MatrixXd> weights) const;
-  /// The matrix A of thesis (3.15): rows are projections on the monomials, columns Taylor terms (with
-  /// their factorials), scaled as asked.
+  /// The matrix A of thesis (3.15): rows are projections on the monomials, columns Taylor terms
+  /// (with their factorials), scaled as asked.
   Eigen::MatrixXd local_matrix(const LocalStencil<Dim>& stencil, Scaling scaling) const;
   /// Derivatives up to the order of the fit can be given.
   std::string unsupported(const Derivatives<Dim>& derivatives) const;
@@ -56,7 +57,8 @@ class TaylorFit {
   int order_;
   std::shared_ptr<const WeightFunction> weight_;
   Derivatives<Dim> monomials_;
-  std::vector<int> parent_;  ///< monomial a = monomial parent_[a] * z[axis_[a]], parent -1 is the constant
+  std::vector<int>
+      parent_;  ///< monomial a = monomial parent_[a] * z[axis_[a]], parent -1 is the constant
   std::vector<int> axis_;
 
   bool factorise_normal_equations(const LocalStencil<Dim>& stencil, Workspace& work) const;
@@ -76,7 +78,14 @@ struct StencilSurplus {
   double in_1d, in_2d, in_3d;
 };
 
-/// Makes a Taylor-fit method; `name` is used in messages.
+/// Surplus of the methods that keep stencils small: the thesis' nine nodes in 2D up to order 2,
+/// twice the coefficients above it, where fewer are ill-conditioned near boundaries.
+inline StencilSurplus lean_surplus(int order) {
+  return order <= 2 ? StencilSurplus{1, 1.5, 2} : StencilSurplus{1, 2, 2};
+}
+
+/// Makes a Taylor-fit method; `name` is used in messages. Stencils are sized by the surplus, but
+/// never too small for a flat boundary of a grid.
 template <int Dim>
 std::unique_ptr<Method<Dim>> make_taylor_method(std::string name, int order,
                                                 std::shared_ptr<const WeightFunction> weight,

@@ -2,8 +2,8 @@
 
 #include <cmath>
 #include <memory>
-#include <stdexcept>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 

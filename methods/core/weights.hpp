@@ -8,8 +8,8 @@
 
 namespace strongpoint {
 
-/// Derivative weights of all evaluation points: one CSR pattern (points x nodes), `per_entry` values
-/// an entry, one for each derivative asked for, in their order.
+/// Derivative weights of all evaluation points: one CSR pattern (points x nodes), `per_entry`
+/// values an entry, one for each derivative asked for, in their order.
 struct Weights {
   int per_entry = 0;                     ///< m, derivatives per entry
   std::vector<std::int64_t> offsets{0};  ///< (points + 1)

@@ -59,7 +59,8 @@ class Block final : public StencilRule<Dim> {
 RuleEntry rule_block() {
   return {{"block",
            "index block of a structured cloud, shifted inwards at the edges",
-           {{"width", "", "nodes along each axis; the method's order plus one, made odd, if not given"}}},
+           {{"width", "",
+             "nodes along each axis; the method's order plus one, made odd, if not given"}}},
           in_every_dimension<StencilRule>(
               []<int Dim>(Dimension<Dim>, Options& options) -> std::unique_ptr<StencilRule<Dim>> {
                 const int width = options.has("width") ? options.integer("width", 2, 101) : 0;

@@ -29,7 +29,7 @@ class GrowUntil final : public StencilRule<Dim> {
     for (int i = 0; i < base.size(); ++i) chosen.emplace_back(base[i].begin(), base[i].end());
     std::vector<int> bad(anchors.size());  // positions in `anchors` still to be judged
     std::iota(bad.begin(), bad.end(), 0);
-    Stencils near;                  // the `cap` nearest of each anchor found bad at first
+    Stencils near;  // the `cap` nearest of each anchor found bad at first
     std::vector<int> near_of(anchors.size(), -1);
     while (true) {
       bad = still_bad(sites, anchors, method, chosen, bad);
@@ -42,7 +42,8 @@ class GrowUntil final : public StencilRule<Dim> {
         }
         near = search.nearest(columns_of<Dim>(sites.anchors, ids), limits_.cap, Ties::keep);
       }
-      std::erase_if(bad, [&](int i) { return !grow(sites, anchors[i], near[near_of[i]], chosen[i]); });
+      std::erase_if(bad,
+                    [&](int i) { return !grow(sites, anchors[i], near[near_of[i]], chosen[i]); });
     }
     Stencils result;
     for (const std::vector<int>& nodes : chosen) result.push_back(nodes);
@@ -98,20 +99,22 @@ class GrowUntil final : public StencilRule<Dim> {
 /// well conditioned. Source: thesis 3.2.1 and 3.4, whose own limit is scaling=row, cond_max=4e8;
 /// scaling both sides makes the limit independent of the spacing.
 RuleEntry rule_grow_until() {
-  return {{"grow_until",
-           "another rule's stencils, grown until the local matrix is well conditioned",
-           {{"cond_max", "1e3", "largest condition accepted"},
-            {"scaling", "both", "both | row: sides of the local matrix scaled by the stencil radius"},
-            {"norm", "two", "two | one: norm of the condition"},
-            {"cap", "60", "largest stencil tried"},
-            {"of", "nearest", "the rule whose stencils are grown"}}},
-          in_every_dimension<StencilRule>([]<int Dim>(Dimension<Dim>, Options& options)
-                                              -> std::unique_ptr<StencilRule<Dim>> {
+  return {
+      {"grow_until",
+       "another rule's stencils, grown until the local matrix is well conditioned",
+       {{"cond_max", "1e3", "largest condition accepted"},
+        {"scaling", "both", "both | row: sides of the local matrix scaled by the stencil radius"},
+        {"norm", "two", "two | one: norm of the condition"},
+        {"cap", "60", "largest stencil tried"},
+        {"of", "nearest", "the rule whose stencils are grown"}}},
+      in_every_dimension<StencilRule>(
+          []<int Dim>(Dimension<Dim>, Options& options) -> std::unique_ptr<StencilRule<Dim>> {
             Named<StencilRule<Dim>> base = make_rule<Dim>(options.text("of"));
             options.set("of", base.spec);
             const Limits limits{
                 options.number("cond_max", 1, 1e300),
-                options.choice<Scaling>("scaling", {{"both", Scaling::both}, {"row", Scaling::row}}),
+                options.choice<Scaling>("scaling",
+                                        {{"both", Scaling::both}, {"row", Scaling::row}}),
                 options.choice<ConditionNorm>(
                     "norm", {{"two", ConditionNorm::two}, {"one", ConditionNorm::one}}),
                 options.integer("cap", 2, 100000)};

@@ -28,13 +28,14 @@ class Radius final : public StencilRule<Dim> {
 
 }  // namespace
 
-/// All nodes within a multiple of the local spacing, which is the distance to the Dim-th nearest other
-/// node: exactly the spacing on a grid, at its edges and corners too. Source: thesis 3.3.1, supports of
-/// SPH and its kin; the factor should not end on a shell of neighbours.
+/// All nodes within a multiple of the local spacing, which is the distance to the Dim-th nearest
+/// other node: exactly the spacing on a grid, at its edges and corners too. Source: thesis 3.3.1,
+/// supports of SPH and its kin; the factor should not end on a shell of neighbours.
 RuleEntry rule_radius() {
   return {{"radius",
            "all nodes within a multiple of the local spacing",
-           {{"factor", "2.6", "radius over local spacing (distance to the Dim-th nearest other node)"}}},
+           {{"factor", "2.6",
+             "radius over local spacing (distance to the Dim-th nearest other node)"}}},
           in_every_dimension<StencilRule>(
               []<int Dim>(Dimension<Dim>, Options& options) -> std::unique_ptr<StencilRule<Dim>> {
                 return std::make_unique<Radius<Dim>>(options.number("factor", 0.1, 100));

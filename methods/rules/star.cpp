@@ -6,10 +6,10 @@
 namespace strongpoint {
 namespace {
 
-/// Sector (half-line, quadrant, octant) of an offset. A zero component takes the sign of the component
-/// before it (cyclically in three), or the opposite sign of the one after it when that is zero too, so
-/// that every half-axis belongs to a sector of its own; in 2D the sectors are [x>0,y>=0],
-/// [x<=0,y>0], [x<0,y<=0], [x>=0,y<0].
+/// Sector (half-line, quadrant, octant) of an offset. A zero component takes the sign of the
+/// component before it (cyclically in three), or the opposite sign of the one after it when that is
+/// zero too, so that every half-axis belongs to a sector of its own; in 2D the sectors are
+/// [x>0,y>=0], [x<=0,y>0], [x<0,y<=0], [x>=0,y<0].
 template <int Dim>
 int sector_of(const Point<Dim>& offset) {
   std::array<double, 3> x{};
@@ -37,7 +37,8 @@ class Star final : public StencilRule<Dim> {
                                          candidates_per_sector * total + 1, Ties::keep);
     Stencils result;
     for (std::size_t i = 0; i < anchors.size(); ++i) {
-      result.push_back(choose(sites, anchors[i], near[static_cast<int>(i)], total));
+      const std::span<const int> nodes = near[static_cast<int>(i)];
+      result.push_back(choose(sites, anchors[i], by_rank(sites, anchors[i], nodes), total));
     }
     return result;
   }
@@ -45,8 +46,23 @@ class Star final : public StencilRule<Dim> {
  private:
   int per_sector_;
 
+  /// Candidates with those at equal distances (to the tie tolerance) in the order of their ids, so
+  /// that round-off does not choose among them.
+  static std::vector<int> by_rank(const Sites<Dim>& sites, int anchor, std::span<const int> near) {
+    std::vector<int> nodes(near.begin(), near.end());
+    for (auto first = nodes.begin(); first != nodes.end();) {
+      const double bound = squared_distance(sites, anchor, *first) * (1 + 2 * tie_tolerance);
+      const auto last = std::find_if(first, nodes.end(), [&](int node) {
+        return squared_distance(sites, anchor, node) > bound;
+      });
+      std::sort(first, last);
+      first = last;
+    }
+    return nodes;
+  }
+
   /// The nearest nodes of each sector, then the nearest unused ones while sectors lack nodes.
-  std::vector<int> choose(const Sites<Dim>& sites, int anchor, std::span<const int> near,
+  std::vector<int> choose(const Sites<Dim>& sites, int anchor, const std::vector<int>& near,
                           int total) const {
     std::array<int, 8> taken{};
     std::vector<int> chosen;

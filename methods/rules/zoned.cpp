@@ -42,15 +42,15 @@ RuleEntry rule_zoned() {
            "one rule inside, another at boundary nodes",
            {{"interior", "nearest", "rule at interior nodes"},
             {"boundary", "nearest", "rule at boundary nodes"}}},
-          in_every_dimension<StencilRule>([]<int Dim>(Dimension<Dim>, Options& options)
-                                              -> std::unique_ptr<StencilRule<Dim>> {
-            Named<StencilRule<Dim>> interior = make_rule<Dim>(options.text("interior"));
-            Named<StencilRule<Dim>> boundary = make_rule<Dim>(options.text("boundary"));
-            options.set("interior", interior.spec);
-            options.set("boundary", boundary.spec);
-            return std::make_unique<ZonedRule<Dim>>(std::move(interior.made),
-                                                    std::move(boundary.made));
-          })};
+          in_every_dimension<StencilRule>(
+              []<int Dim>(Dimension<Dim>, Options& options) -> std::unique_ptr<StencilRule<Dim>> {
+                Named<StencilRule<Dim>> interior = make_rule<Dim>(options.text("interior"));
+                Named<StencilRule<Dim>> boundary = make_rule<Dim>(options.text("boundary"));
+                options.set("interior", interior.spec);
+                options.set("boundary", boundary.spec);
+                return std::make_unique<ZonedRule<Dim>>(std::move(interior.made),
+                                                        std::move(boundary.made));
+              })};
 }
 
 }  // namespace strongpoint

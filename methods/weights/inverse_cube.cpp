@@ -4,8 +4,7 @@ namespace strongpoint {
 
 /// T = r^-3. Source: Benito, Urena, Gavete 2001 use powers of the distance; the thesis states none.
 WeightEntry weight_inverse_cube() {
-  return {{"inverse_cube", "T = r^-3", {}},
-          [](const Options&) {
+  return {{"inverse_cube", "T = r^-3", {}}, [](const Options&) {
             return weight_of_distance([](double rho) { return std::pow(rho, -6); });
           }};
 }

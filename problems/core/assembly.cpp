@@ -96,8 +96,8 @@ std::int64_t count_entries(Terms terms, const Weights& weights, int fields, Work
   return static_cast<std::int64_t>(work.entries.size());
 }
 
-/// Fills a compact row: for every stencil node the used fields, a product (fields x derivatives) with
-/// the node's weights.
+/// Fills a compact row: for every stencil node the used fields, a product (fields x derivatives)
+/// with the node's weights.
 void fill_compact(Terms terms, const Weights& weights, int fields, Workspace& work,
                   std::int64_t* columns, double* values) {
   const int point = terms.front().point;
@@ -105,7 +105,8 @@ void fill_compact(Terms terms, const Weights& weights, int fields, Workspace& wo
   if (work.ordered_point != point) {  // sorted once per stencil, not once per row
     work.ordered_point = point;
     work.order.clear();
-    for (std::size_t j = 0; j < nodes.size(); ++j) work.order.emplace_back(nodes[j], static_cast<int>(j));
+    for (std::size_t j = 0; j < nodes.size(); ++j)
+      work.order.emplace_back(nodes[j], static_cast<int>(j));
     std::sort(work.order.begin(), work.order.end());
   }
   mark_fields(terms, fields, work.used);
@@ -160,23 +161,27 @@ void check_rows(const std::vector<double>& largest, const Eigen::VectorXd& right
     if (fine) continue;
     const char* what = largest[row] == 0 ? "has no entries: its node has no stencil"
                                          : "holds a number that is not finite";
-    throw CaseError(fmt::format("equation {} of node {} {}; check the problem's data and the stencil",
-                                static_cast<int>(row) % fields, static_cast<int>(row) / fields, what));
+    throw CaseError(
+        fmt::format("equation {} of node {} {}; check the problem's data and the stencil",
+                    static_cast<int>(row) % fields, static_cast<int>(row) / fields, what));
   }
 }
 
 }  // namespace
 
-LinearSystem assemble(const EquationList& equations, const Weights& weights, int nodes, int fields) {
+LinearSystem assemble(const EquationList& equations, const Weights& weights, int nodes,
+                      int fields) {
   const int rows = equations.size();
   if (rows != nodes * fields) {
-    throw CaseError(fmt::format("{} equations for {} unknowns; a problem states one per node and field",
-                                rows, nodes * fields));
+    throw CaseError(
+        fmt::format("{} equations for {} unknowns; a problem states one per node and field", rows,
+                    nodes * fields));
   }
   LinearSystem system;
   system.fields = fields;
   system.offsets.assign(rows + 1, 0);
-  system.right_hand_side = Eigen::Map<const Eigen::VectorXd>(equations.right_hand_sides.data(), rows);
+  system.right_hand_side =
+      Eigen::Map<const Eigen::VectorXd>(equations.right_hand_sides.data(), rows);
   std::vector<double> largest(rows);
 #pragma omp parallel
   {

@@ -6,11 +6,11 @@
 
 namespace strongpoint {
 
-/// Writes the rows of `equations` straight into compressed rows: unknown = node * fields + field. Each
-/// row is scaled to a largest entry of 1. A term on the bare value (`value_only`) at point p is the
-/// unknown of node p. Cost: one pass to size the rows, one to fill them, in parallel, no triplets.
-/// Throws CaseError for a row without entries, for an entry that is not finite, and for a derivative
-/// read at a point without weights, naming the row's node.
+/// Writes the rows of `equations` straight into compressed rows: unknown = node * fields + field.
+/// Each row is scaled to a largest entry of 1. A term on the bare value (`value_only`) at point p
+/// is the unknown of node p. Cost: one pass to size the rows, one to fill them, in parallel, no
+/// triplets. Throws CaseError for a row without entries, for an entry that is not finite, and for a
+/// derivative read at a point without weights, naming the row's node.
 LinearSystem assemble(const EquationList& equations, const Weights& weights, int nodes, int fields);
 
 }  // namespace strongpoint

@@ -17,7 +17,8 @@ class Collocation final : public Form<Dim> {
  public:
   std::string unsupported(const Method<Dim>& method) const override {
     if (method.promises().interpolates) return {};
-    return "plain collocation writes Dirichlet rows on nodal values, which this method does not have";
+    return "plain collocation writes Dirichlet rows on nodal values, which this method does not "
+           "have";
   }
 
   Derivatives<Dim> derivatives(const SteadyProblem<Dim>& problem, const PointCloud<Dim>& cloud,

@@ -12,8 +12,9 @@ namespace strongpoint {
 template <int Dim>
 struct BoundaryPiece {
   using Parameter = Eigen::Matrix<double, Dim - 1, 1>;
-  int side;                                         ///< index into the domain's sides
-  std::function<Point<Dim>(const Parameter&)> map;  ///< ends (1D edges, 2D rims) are shared with neighbours
+  int side;  ///< index into the domain's sides
+  std::function<Point<Dim>(const Parameter&)>
+      map;  ///< ends (1D edges, 2D rims) are shared with neighbours
 };
 
 /// The region a problem is posed on: a map from the unit cube for structured clouds, and a distance
@@ -42,7 +43,8 @@ class Domain {
   virtual double distance(const Point<Dim>& x) const = 0;
   /// The boundary, piece by piece; pieces meet only at their ends.
   virtual std::vector<BoundaryPiece<Dim>> pieces() const = 0;
-  /// Wanted distance between nodes of a scattered cloud of a level; uniform unless a problem grades it.
+  /// Wanted distance between nodes of a scattered cloud of a level; uniform unless a problem grades
+  /// it.
   virtual double spacing(const Point<Dim>& x, int level) const;
   /// Boundary marks, with normals, of the sides given.
   std::vector<BoundaryMark<Dim>> marks(const std::vector<int>& sides, const Point<Dim>& x) const;

@@ -25,8 +25,8 @@ MultiIndex<Dim> partial(int i, int j = -1) {
   return alpha;
 }
 
-/// Adds component i of div sigma: mu lap u_i + (lambda + mu) d_i div u. Fields are the displacements.
-/// Source: thesis (4.4).
+/// Adds component i of div sigma: mu lap u_i + (lambda + mu) d_i div u. Fields are the
+/// displacements. Source: thesis (4.4).
 template <int Dim>
 void add_equilibrium(EquationWriter<Dim>& write, const Lame& material, int i) {
   for (int j = 0; j < Dim; ++j) {
@@ -49,7 +49,8 @@ void add_traction(EquationWriter<Dim>& write, const Lame& material, const Point<
   }
 }
 
-/// Stress tensor from the displacement gradient, gradient(i, j) = d u_i / d x_j. Source: thesis (4.2).
+/// Stress tensor from the displacement gradient, gradient(i, j) = d u_i / d x_j. Source: thesis
+/// (4.2).
 template <int Dim>
 Eigen::Matrix<double, Dim, Dim> stress(const Lame& material,
                                        const Eigen::Matrix<double, Dim, Dim>& gradient) {

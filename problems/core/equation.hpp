@@ -11,7 +11,8 @@ namespace strongpoint {
 struct Term {
   int point;
   std::int16_t field;
-  std::int16_t derivative;  ///< position in the derivatives asked for, `value_only` for the bare value
+  std::int16_t
+      derivative;  ///< position in the derivatives asked for, `value_only` for the bare value
   double coefficient;
 };
 
@@ -37,12 +38,13 @@ class EquationWriter {
 
   /// Sets the evaluation point of the equations that follow.
   void at(int point) { point_ = point; }
-  /// Adds a term to the equation being written. Throws std::logic_error for an undeclared derivative.
+  /// Adds a term to the equation being written. Throws std::logic_error for an undeclared
+  /// derivative.
   void add(int field, const MultiIndex<Dim>& alpha, double coefficient) {
     const bool is_value = order_of<Dim>(alpha) == 0 && !derivatives_.contains(alpha);
     const int slot = is_value ? value_only : derivatives_.index(alpha);
-    list_.terms.push_back({point_, static_cast<std::int16_t>(field), static_cast<std::int16_t>(slot),
-                           coefficient});
+    list_.terms.push_back(
+        {point_, static_cast<std::int16_t>(field), static_cast<std::int16_t>(slot), coefficient});
   }
   /// Ends the equation: the sum of its terms equals `right_hand_side`.
   void equals(double right_hand_side) {

@@ -26,7 +26,7 @@ PointCloud<Dim> make_cloud(const Domain<Dim>& domain, std::string_view spec,
   const Spec parsed = parse_spec(spec);
   const LayoutEntry& entry = find_entry(layouts(), "cloud layout", parsed.name);
   const Options options(entry.info, parsed);
-  if (request.level < 2) {
+  if (request.level < 2 && entry.sizing == Sizing::by_level) {
     throw CaseError(fmt::format("level {}: at least 2 nodes a side are needed", request.level));
   }
   if constexpr (Dim == 1) return entry.make_1d(domain, options, request);

@@ -16,6 +16,12 @@ struct LayoutRequest {
   std::uint64_t seed = 1;  ///< used by random layouts whose spec gives none
 };
 
+/// What decides how many nodes a layout makes.
+enum class Sizing {
+  by_level,  ///< the level asked for
+  by_file    ///< the file the nodes are read from; levels mean nothing
+};
+
 /// A way to place nodes in a domain. Makers throw SkipCase when the domain cannot be served and
 /// CaseError when the cloud is bad.
 struct LayoutEntry {
@@ -23,16 +29,19 @@ struct LayoutEntry {
   PointCloud<1> (*make_1d)(const Domain<1>&, const Options&, const LayoutRequest&);
   PointCloud<2> (*make_2d)(const Domain<2>&, const Options&, const LayoutRequest&);
   PointCloud<3> (*make_3d)(const Domain<3>&, const Options&, const LayoutRequest&);
+  Sizing sizing = Sizing::by_level;
 };
 
 /// A layout entry from a stateless generic lambda
 /// `[]<int Dim>(const Domain<Dim>&, const Options&, const LayoutRequest&)`.
 template <class Maker>
-LayoutEntry layout_entry(EntryInfo info, Maker) {
-  return {std::move(info),
-          [](const Domain<1>& d, const Options& o, const LayoutRequest& r) { return Maker{}(d, o, r); },
-          [](const Domain<2>& d, const Options& o, const LayoutRequest& r) { return Maker{}(d, o, r); },
-          [](const Domain<3>& d, const Options& o, const LayoutRequest& r) { return Maker{}(d, o, r); }};
+LayoutEntry layout_entry(EntryInfo info, Maker, Sizing sizing = Sizing::by_level) {
+  return {
+      std::move(info),
+      [](const Domain<1>& d, const Options& o, const LayoutRequest& r) { return Maker{}(d, o, r); },
+      [](const Domain<2>& d, const Options& o, const LayoutRequest& r) { return Maker{}(d, o, r); },
+      [](const Domain<3>& d, const Options& o, const LayoutRequest& r) { return Maker{}(d, o, r); },
+      sizing};
 }
 
 /// All registered layouts, in the order of layouts.def.

@@ -44,7 +44,8 @@ class ManufacturedPoisson final : public SteadyProblem<Dim> {
   std::vector<std::string> quantities() const override { return {"u_error", "u_max_error"}; }
   std::vector<double> measure(const Solution<Dim>& solution) const override {
     Eigen::VectorXd exact(solution.cloud.size());
-    for (int i = 0; i < solution.cloud.size(); ++i) exact[i] = value_at(solution.cloud.nodes.col(i));
+    for (int i = 0; i < solution.cloud.size(); ++i)
+      exact[i] = value_at(solution.cloud.nodes.col(i));
     const Eigen::VectorXd computed = solution.fields.row(0);
     return {relative_error(computed, exact), relative_max_error(computed, exact)};
   }

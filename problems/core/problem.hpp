@@ -46,12 +46,12 @@ class Problem {
 template <int Dim>
 struct Solution {
   const PointCloud<Dim>& cloud;
-  Eigen::MatrixXd fields;                ///< (fields, N) nodal values
-  const Weights& weights;                ///< (N points x nodes)
-  const Derivatives<Dim>& derivatives;   ///< of the weights
+  Eigen::MatrixXd fields;               ///< (fields, N) nodal values
+  const Weights& weights;               ///< (N points x nodes)
+  const Derivatives<Dim>& derivatives;  ///< of the weights
 
-  /// A derivative of a field at every node, (N). Throws std::logic_error when it was not declared and
-  /// CaseError when a node has no weights.
+  /// A derivative of a field at every node, (N). Throws std::logic_error when it was not declared
+  /// and CaseError when a node has no weights.
   Eigen::VectorXd derivative(int field, const MultiIndex<Dim>& alpha) const;
 };
 

@@ -1,6 +1,5 @@
-#include "problems/core/problem.hpp"
-
 #include "methods/core/error.hpp"
+#include "problems/core/problem.hpp"
 
 namespace strongpoint {
 

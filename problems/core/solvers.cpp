@@ -15,12 +15,9 @@ namespace {
 using RowMajor = Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor, std::int64_t>>;
 
 RowMajor view_of(const LinearSystem& system) {
-  return {system.rows(),
-          system.rows(),
-          static_cast<Eigen::Index>(system.values.size()),
-          system.offsets.data(),
-          system.columns.data(),
-          system.values.data()};
+  return {
+      system.rows(),         system.rows(),         static_cast<Eigen::Index>(system.values.size()),
+      system.offsets.data(), system.columns.data(), system.values.data()};
 }
 
 [[noreturn]] void throw_singular(const LinearSystem& system, std::string_view solver) {
@@ -46,13 +43,14 @@ void check_umfpack(SuiteSparse_long status, const LinearSystem& system) {
   if (status == UMFPACK_OK) return;
   if (status == UMFPACK_WARNING_singular_matrix) throw_singular(system, "umfpack");
   if (status == UMFPACK_ERROR_out_of_memory) {
-    throw CaseError(fmt::format("umfpack: out of memory for {} unknowns; use fewer nodes",
-                                system.rows()));
+    throw CaseError(
+        fmt::format("umfpack: out of memory for {} unknowns; use fewer nodes", system.rows()));
   }
   throw CaseError(fmt::format("umfpack: failed with status {}", status));
 }
 
-/// Direct factorisation with 64-bit indices. The rows are handed over as the columns of the transpose.
+/// Direct factorisation with 64-bit indices. The rows are handed over as the columns of the
+/// transpose.
 Eigen::VectorXd solve_umfpack(const LinearSystem& system) {
   static_assert(sizeof(SuiteSparse_long) == sizeof(std::int64_t));
   const auto n = static_cast<SuiteSparse_long>(system.rows());
@@ -65,8 +63,9 @@ Eigen::VectorXd solve_umfpack(const LinearSystem& system) {
   // Full partial pivoting solves them to round-off and is no slower.
   control[UMFPACK_PIVOT_TOLERANCE] = 1;
   UmfpackObjects made;
-  check_umfpack(umfpack_dl_symbolic(n, n, offsets, columns, values, &made.symbolic, control, nullptr),
-                system);
+  check_umfpack(
+      umfpack_dl_symbolic(n, n, offsets, columns, values, &made.symbolic, control, nullptr),
+      system);
   check_umfpack(
       umfpack_dl_numeric(offsets, columns, values, made.symbolic, &made.numeric, control, nullptr),
       system);
@@ -110,8 +109,8 @@ double relative_residual(const LinearSystem& system, const Eigen::VectorXd& x) {
     }
     norm = std::max(norm, sum);
   }
-  const double scale = norm * x.lpNorm<Eigen::Infinity>() +
-                       system.right_hand_side.lpNorm<Eigen::Infinity>();
+  const double scale =
+      norm * x.lpNorm<Eigen::Infinity>() + system.right_hand_side.lpNorm<Eigen::Infinity>();
   return scale > 0 ? residual.lpNorm<Eigen::Infinity>() / scale : 0;
 }
 
@@ -138,9 +137,10 @@ LinearSolution solve(const LinearSystem& system, std::string_view solver) {
   if (!solution.x.allFinite()) throw_singular(system, entry.info.name);
   solution.residual = relative_residual(system, solution.x);
   if (!(solution.residual <= largest_residual)) {
-    throw CaseError(fmt::format("{}: the relative residual {:.1e} exceeds {:.0e}; the system of {} "
-                                "unknowns is too ill-conditioned",
-                                entry.info.name, solution.residual, largest_residual, system.rows()));
+    throw CaseError(
+        fmt::format("{}: the relative residual {:.1e} exceeds {:.0e}; the system of {} "
+                    "unknowns is too ill-conditioned",
+                    entry.info.name, solution.residual, largest_residual, system.rows()));
   }
   return solution;
 }

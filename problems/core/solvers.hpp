@@ -37,8 +37,8 @@ const std::vector<EntryInfo>& solvers();
 /// Canonical form of a `--solver` spec. Throws UsageError when it is malformed or unknown.
 std::string canonical_solver(std::string_view spec);
 
-/// Solves a system whose rows are scaled to a largest entry of 1. Throws CaseError when the matrix is
-/// singular, the solution is not finite or the residual exceeds `largest_residual`.
+/// Solves a system whose rows are scaled to a largest entry of 1. Throws CaseError when the matrix
+/// is singular, the solution is not finite or the residual exceeds `largest_residual`.
 LinearSolution solve(const LinearSystem& system, std::string_view solver);
 
 }  // namespace strongpoint

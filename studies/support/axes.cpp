@@ -133,7 +133,7 @@ std::string seeded(const std::string& text, const std::optional<std::uint64_t>& 
   const bool gives = std::any_of(spec.arguments.begin(), spec.arguments.end(),
                                  [](const auto& argument) { return argument.first == "seed"; });
   if (seed && knows && !gives) spec.arguments.emplace_back("seed", fmt::format("{}", *seed));
-  const std::string canonical = canonical_cloud(to_string(spec));
+  std::string canonical = canonical_cloud(to_string(spec));
   check_values(spec, info, canonical);
   return canonical;
 }
@@ -210,20 +210,16 @@ PlannedCase planned_case(const std::vector<const AxisValue*>& axes, int level) {
 
 /// Asks the study what the case will give.
 void expect_quantities(PlannedCase& planned, const Study& study, const Options& extra) {
-  const auto refuse = [&](Status status, const char* reason) {
-    planned.status = status;
-    planned.reason = reason;
-  };
-  if (planned.status == Status::ok) {
-    try {
-      planned.quantities = study.quantities(planned.key, extra);
-    } catch (const SkipCase& error) {
-      refuse(Status::skipped, error.what());
-    } catch (const UsageError&) {
-      throw;
-    } catch (const std::exception& error) {
-      refuse(Status::failed, error.what());
-    }
+  try {
+    if (planned.status == Status::ok) planned.quantities = study.quantities(planned.key, extra);
+  } catch (const UsageError&) {
+    throw;
+  } catch (const SkipCase& error) {
+    planned.status = Status::skipped;
+    planned.reason = error.what();
+  } catch (const std::exception& error) {
+    planned.status = Status::failed;
+    planned.reason = error.what();
   }
   if (planned.quantities.empty()) planned.quantities = {"all"};
 }
@@ -276,7 +272,9 @@ std::string identity_of(const CaseKey& key) {
                    is_file_cloud(key.cloud) ? "" : fmt::format("{}", key.level)});
 }
 
-bool is_file_cloud(const std::string& cloud) { return cloud.substr(0, cloud.find('[')) == "file"; }
+bool is_file_cloud(const std::string& cloud) {
+  return find_entry(layouts(), "cloud", parse_spec(cloud).name).sizing == Sizing::by_file;
+}
 
 int level_of(std::int64_t nodes, int dimension) {
   return static_cast<int>(std::lround(std::pow(static_cast<double>(nodes), 1.0 / dimension)));

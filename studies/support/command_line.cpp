@@ -41,7 +41,7 @@ T number(const Given& given, const std::string& option, T otherwise, T least, T 
 
 std::string engine(const Given& given) {
   const std::vector<std::string>& engines = search_engines();
-  const std::string name = given.value("--neighbours", RunOptions{}.neighbours);
+  std::string name = given.value("--neighbours", RunOptions{}.neighbours);
   if (std::find(engines.begin(), engines.end(), name) == engines.end()) {
     throw UsageError(fmt::format("--neighbours {}: unknown search engine; known: {}", name,
                                  fmt::join(engines, ", ")));

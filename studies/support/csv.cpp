@@ -36,12 +36,10 @@ CsvText parse_csv(std::string_view text) {
       // A doubled quote inside quotes is a literal one; quoting then resumes at the second.
       if (!quoting && i > 0 && text[i - 1] == '"' && i > record_start) field += '"';
       quoting = !quoting;
-    } else if (quoting) {
-      field += c;
-    } else if (c == ',') {
+    } else if (!quoting && c == ',') {
       record.push_back(std::move(field));
       field.clear();
-    } else if (c == '\n') {
+    } else if (!quoting && c == '\n') {
       if (!field.empty() && field.back() == '\r') field.pop_back();
       record.push_back(std::move(field));
       field.clear();

@@ -24,8 +24,8 @@ enum Phase { search, selection, matrix, scaling, condition, growth, inversion, o
 /// One centre on its way through the phases.
 template <int Dim>
 struct Centre {
-  std::vector<int> near;   ///< candidates by distance
-  std::vector<int> nodes;  ///< the stencil
+  std::vector<int> near;        ///< candidates by distance
+  std::vector<int> nodes;       ///< the stencil
   Eigen::MatrixXd projections;  ///< (m, n) projection functions times T^2
   Eigen::MatrixXd local;        ///< (m, m) A, then S A
   Eigen::MatrixXd inverse;      ///< (m, m)
@@ -38,7 +38,10 @@ class Phases {
  public:
   Phases(const PointCloud<Dim>& cloud, const Eigen::VectorXd& volumes, const TaylorFit<Dim>& fit,
          int stencil_size, PhaseAlgorithm algorithm)
-      : fit_(fit), size_(stencil_size), algorithm_(algorithm), sites_(sites_at_nodes<Dim>(cloud.nodes)) {
+      : fit_(fit),
+        size_(stencil_size),
+        algorithm_(algorithm),
+        sites_(sites_at_nodes<Dim>(cloud.nodes)) {
     sites_.volumes = volumes;
     run_.weights.per_entry = fit.unknowns();
     if (algorithm == PhaseAlgorithm::cells) {
@@ -75,9 +78,9 @@ class Phases {
   void timed(Phase phase, Work&& work) {
     clock_.time(run_.seconds[phase], std::forward<Work>(work));
   }
-  void each(int first, std::vector<Centre<Dim>>& centres,
-            void (Phases::*step)(int, Centre<Dim>&)) {
-    for (std::size_t i = 0; i < centres.size(); ++i) (this->*step)(first + static_cast<int>(i), centres[i]);
+  void each(int first, std::vector<Centre<Dim>>& centres, void (Phases::*step)(int, Centre<Dim>&)) {
+    for (std::size_t i = 0; i < centres.size(); ++i)
+      (this->*step)(first + static_cast<int>(i), centres[i]);
   }
 
   /// Candidates beyond those the first stencil takes serve the growth.
@@ -110,16 +113,18 @@ class Phases {
   /// Takes at least `wanted` candidates, with the ties of the last.
   void take(int node, Centre<Dim>& centre, std::size_t wanted) {
     if (wanted > centre.near.size()) {
-      throw CaseError(fmt::format("the stencil of node {} {} stays ill-conditioned with {} nodes", node,
-                                  format_point(sites_.nodes.col(node)), centre.near.size()));
+      throw CaseError(fmt::format("the stencil of node {} {} stays ill-conditioned with {} nodes",
+                                  node, format_point(sites_.nodes.col(node)), centre.near.size()));
     }
     const double bound =
         squared_distance(sites_, node, centre.near[wanted - 1]) * (1 + 2 * tie_tolerance);
     std::size_t count = wanted;
-    while (count < centre.near.size() && squared_distance(sites_, node, centre.near[count]) <= bound) {
+    while (count < centre.near.size() &&
+           squared_distance(sites_, node, centre.near[count]) <= bound) {
       ++count;
     }
-    centre.nodes.assign(centre.near.begin(), centre.near.begin() + static_cast<std::ptrdiff_t>(count));
+    centre.nodes.assign(centre.near.begin(),
+                        centre.near.begin() + static_cast<std::ptrdiff_t>(count));
   }
   void select(int node, Centre<Dim>& centre) {
     take(node, centre, std::min<std::size_t>(size_, centre.near.size()));
@@ -178,7 +183,8 @@ class Phases {
     rows.col(self).setZero();
     rows.col(self) = -rows.rowwise().sum();
     run_.stencils.push_back(centre.nodes);
-    run_.weights.columns.insert(run_.weights.columns.end(), centre.nodes.begin(), centre.nodes.end());
+    run_.weights.columns.insert(run_.weights.columns.end(), centre.nodes.begin(),
+                                centre.nodes.end());
     run_.weights.values.insert(run_.weights.values.end(), rows.data(), rows.data() + rows.size());
     run_.weights.offsets.push_back(static_cast<std::int64_t>(run_.weights.columns.size()));
   }

@@ -16,8 +16,9 @@ enum class PhaseAlgorithm {
 };
 
 /// Names of the phases, in the order they are run.
-inline constexpr std::array<const char*, 8> phase_names{
-    "search", "selection", "matrix", "scaling", "condition", "growth", "inversion", "operator_rows"};
+inline constexpr std::array<const char*, 8> phase_names{"search",    "selection",    "matrix",
+                                                        "scaling",   "condition",    "growth",
+                                                        "inversion", "operator_rows"};
 
 /// What an instrumented run gives.
 struct PhaseRun {

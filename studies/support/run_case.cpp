@@ -1,8 +1,8 @@
 #include "studies/support/run_case.hpp"
 
-#include <omp.h>
-
 #include <algorithm>
+
+#include <omp.h>
 
 #include "methods/core/neighbours.hpp"
 #include "problems/core/assembly.hpp"
@@ -60,11 +60,13 @@ CaseResult run_once(const SteadyProblem<Dim>& problem, const CaseKey& key,
   times.peak_mb = peak_memory_mb();
 
   const Solution<Dim> solution{
-      scene.cloud, Eigen::Map<const Eigen::MatrixXd>(linear.x.data(), field_count, scene.cloud.size()),
+      scene.cloud,
+      Eigen::Map<const Eigen::MatrixXd>(linear.x.data(), field_count, scene.cloud.size()),
       scene.weights, scene.derivatives};
   const std::vector<std::string> names = problem.quantities();
   const std::vector<double> values = problem.measure(solution);
-  for (std::size_t q = 0; q < names.size(); ++q) result.quantities.push_back({names[q], values[q], {}, {}});
+  for (std::size_t q = 0; q < names.size(); ++q)
+    result.quantities.push_back({names[q], values[q], {}, {}});
   result.nodes = scene.cloud.size();
   result.unknowns = system.rows();
   result.spacing = scene.cloud.spacing();

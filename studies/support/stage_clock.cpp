@@ -1,17 +1,17 @@
 #include "studies/support/stage_clock.hpp"
 
-#include <sys/resource.h>
-
 #include <chrono>
 #include <ctime>
 #include <fstream>
 #include <string>
+#include <sys/resource.h>
 
 namespace strongpoint {
 
 double StageClock::now() const {
   if (threads_ > 1) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
   }
   timespec time{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);

@@ -181,7 +181,8 @@ LayoutEntry layout_file() {
        {{"path", "", "the file, .msh or .csv"}}},
       []<int Dim>(const Domain<Dim>& domain, const Options& options, const LayoutRequest&) {
         return read_file(domain, options.text("path"));
-      });
+      },
+      Sizing::by_file);
 }
 
 }  // namespace strongpoint

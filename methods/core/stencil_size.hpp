@@ -1,0 +1,24 @@
+#pragma once
+
+namespace strongpoint {
+
+/// Nodes that a stencil on a grid takes to hold the principal lattice of a degree at a flat
+/// boundary: the half-ball of radius `degree` spacings, up to the first node at that distance. With
+/// fewer, all nodes lie on `degree` planes, on whose product the local polynomial vanishes.
+template <int Dim>
+int boundary_lattice_size(int degree) {
+  int count = 1;
+  const int last = degree;
+  const int from_y = Dim > 1 ? -last : 0;
+  const int from_z = Dim > 2 ? -last : 0;
+  for (int x = 0; x <= last; ++x) {
+    for (int y = from_y; y <= -from_y; ++y) {
+      for (int z = from_z; z <= -from_z; ++z) {
+        if (x * x + y * y + z * z < degree * degree) ++count;
+      }
+    }
+  }
+  return count;
+}
+
+}  // namespace strongpoint

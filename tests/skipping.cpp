@@ -1,0 +1,82 @@
+// Nothing that a scene does not need is computed; nothing that was not declared can be read.
+#include <gtest/gtest.h>
+
+#include "problems/core/layout.hpp"
+#include "studies/support/run_case.hpp"
+
+namespace strongpoint {
+namespace {
+
+template <int Dim>
+Discretisation<Dim> discretised(const std::string& problem, const std::string& method) {
+  const CaseKey key{problem,
+                    method,
+                    make_method<Dim>(method).made->default_stencil(),
+                    "perturbed",
+                    "collocation",
+                    "umfpack",
+                    9};
+  StageTimes times;
+  return with_problem<SteadyProblem>(
+      problem, "steady", [&]<int D>(const SteadyProblem<D>& steady) -> Discretisation<Dim> {
+        if constexpr (D == Dim) return discretise<D>(steady, key, RunOptions{}, times);
+        throw std::logic_error("the problem lives in another dimension");
+      });
+}
+
+TEST(Skipping, DirichletNodesHaveNoStencilWithMethodsThatInterpolate) {
+  for (const MethodEntry& entry : methods()) {
+    const auto scene = discretised<2>("poisson_square", entry.info.name);
+    for (int i = 0; i < scene.cloud.size(); ++i) {
+      EXPECT_EQ(scene.stencils[i].empty(), scene.cloud.is_boundary(i)) << entry.info.name;
+      EXPECT_EQ(scene.weights.nodes(i).empty(), scene.cloud.is_boundary(i)) << entry.info.name;
+    }
+  }
+  const auto mixed = discretised<2>("poisson_square[bc=mixed]", "lsfdm");
+  int with_stencil = 0;
+  for (int i = 0; i < mixed.cloud.size(); ++i) {
+    with_stencil += mixed.cloud.is_boundary(i) && !mixed.stencils[i].empty() ? 1 : 0;
+  }
+  EXPECT_EQ(with_stencil, 7);  // x = 1 without its two Dirichlet corners
+}
+
+TEST(Skipping, PoissonHoldsNoMixedDerivative) {
+  const auto square = discretised<2>("poisson_square", "lsfdm");
+  EXPECT_EQ(square.weights.per_entry, 2);
+  EXPECT_EQ(square.derivatives, (Derivatives<2>{{2, 0}, {0, 2}}));
+  EXPECT_THROW(square.derivatives.index({1, 1}), std::logic_error);
+  const auto cube = discretised<3>("poisson_cube", "lsfdm");
+  EXPECT_EQ(cube.weights.per_entry, 3);
+}
+
+TEST(Skipping, VolumesAreMadeForMethodsThatIntegrateOnly) {
+  for (const MethodEntry& entry : methods()) {
+    const auto scene = discretised<2>("plate_hole", entry.info.name);
+    const bool wanted = make_method<2>(entry.info.name).made->needs().volumes;
+    EXPECT_EQ(scene.sites.volumes.size() > 0, wanted) << entry.info.name;
+  }
+}
+
+/// Drops each declared derivative in turn and expects the equations to notice.
+void check_that_dropping_throws(const std::string& spec) {
+  with_problem<SteadyProblem>(spec, "steady", []<int D>(const SteadyProblem<D>& problem) {
+    const PointCloud<D> cloud = make_cloud<D>(problem.domain(), "grid", LayoutRequest{9, 1});
+    const auto form = make_form<D>("collocation");
+    const auto method = make_method<D>("lsfdm").made;
+    const Derivatives<D> declared = form->derivatives(problem, cloud, *method);
+    EXPECT_NO_THROW(form->equations(problem, cloud, declared));
+    for (const MultiIndex<D>& alpha : declared) {
+      EXPECT_THROW(form->equations(problem, cloud, declared.without(alpha)), std::logic_error)
+          << name_of<D>(alpha);
+    }
+  });
+}
+
+TEST(Skipping, ReadingADerivativeThatWasNotDeclaredThrows) {
+  for (const ProblemEntry& entry : problems()) {
+    if (entry.info.name != "field") check_that_dropping_throws(entry.info.name);
+  }
+}
+
+}  // namespace
+}  // namespace strongpoint
