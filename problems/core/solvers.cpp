@@ -1,5 +1,6 @@
 #include "problems/core/solvers.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/SparseCore>
@@ -98,9 +99,8 @@ const std::vector<SolverEntry>& entries() {
   return list;
 }
 
-double relative_residual(const LinearSystem& system, const Eigen::VectorXd& x) {
-  const RowMajor matrix = view_of(system);
-  const Eigen::VectorXd residual = system.right_hand_side - matrix * x;
+/// Largest absolute row sum.
+double infinity_norm(const LinearSystem& system) {
   double norm = 0;
   for (std::int64_t row = 0; row < system.rows(); ++row) {
     double sum = 0;
@@ -109,6 +109,20 @@ double relative_residual(const LinearSystem& system, const Eigen::VectorXd& x) {
     }
     norm = std::max(norm, sum);
   }
+  return norm;
+}
+
+/// True when |A| |x| / |b|, a lower bound of the condition number, says that no digit can be
+/// trusted.
+bool proves_singular(const LinearSystem& system, const Eigen::VectorXd& x, double norm) {
+  constexpr double largest_condition = 1e14;
+  return norm * x.lpNorm<Eigen::Infinity>() >
+         largest_condition * system.right_hand_side.lpNorm<Eigen::Infinity>();
+}
+
+double relative_residual(const LinearSystem& system, const Eigen::VectorXd& x, double norm) {
+  const RowMajor matrix = view_of(system);
+  const Eigen::VectorXd residual = system.right_hand_side - matrix * x;
   const double scale =
       norm * x.lpNorm<Eigen::Infinity>() + system.right_hand_side.lpNorm<Eigen::Infinity>();
   return scale > 0 ? residual.lpNorm<Eigen::Infinity>() / scale : 0;
@@ -134,8 +148,11 @@ LinearSolution solve(const LinearSystem& system, std::string_view solver) {
   const SolverEntry& entry = find_entry(entries(), "solver", parse_spec(solver).name);
   LinearSolution solution;
   solution.x = entry.solve(system);
-  if (!solution.x.allFinite()) throw_singular(system, entry.info.name);
-  solution.residual = relative_residual(system, solution.x);
+  const double norm = infinity_norm(system);
+  if (!solution.x.allFinite() || proves_singular(system, solution.x, norm)) {
+    throw_singular(system, entry.info.name);
+  }
+  solution.residual = relative_residual(system, solution.x, norm);
   if (!(solution.residual <= largest_residual)) {
     throw CaseError(
         fmt::format("{}: the relative residual {:.1e} exceeds {:.0e}; the system of {} "
