@@ -1,6 +1,5 @@
 #include "studies/support/provenance.hpp"
 
-#include <chrono>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
@@ -47,9 +46,9 @@ std::string utc_now() {
   return text;
 }
 
-std::string clock_name() {
-  using Period = std::chrono::steady_clock::period;
-  return fmt::format("steady_clock, ticks of {} ns", 1e9 * Period::num / Period::den);
+/// What StageClock measures.
+std::string clock_name(int threads) {
+  return threads > 1 ? "wall time (several threads)" : "process CPU time (one thread)";
 }
 
 std::string nanoflann_version() {
@@ -95,7 +94,7 @@ Provenance provenance_of(const Study& study, int argc, const char* const* argv, 
           {"cpu", cpu_model()},
           {"cores", fmt::format("{}", std::thread::hardware_concurrency())},
           {"threads", fmt::format("{}", threads)},
-          {"clock", clock_name()},
+          {"clock", clock_name(threads)},
           {"date", utc_now()}};
 }
 
