@@ -14,7 +14,7 @@ MethodEntry method_mfpm_original() {
       in_every_dimension<Method>([]<int Dim>(Dimension<Dim>, Options& options) {
         const int order = options.integer("order", 1, 8);
         return make_taylor_method<Dim>("mfpm_original", order, make_weight("volume").made,
-                                       lean_surplus(order), order <= 2 ? "grow_until" : "nearest");
+                                       lean_surplus(order), default_lean_stencil(Dim, order));
       })};
 }
 

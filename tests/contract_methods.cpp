@@ -1,11 +1,9 @@
 // What every registered method declares of itself is checked here, and nothing else.
 #include <algorithm>
-#include <numeric>
 
 #include <gtest/gtest.h>
 #include <omp.h>
 
-#include "methods/core/error.hpp"
 #include "methods/core/monomial.hpp"
 #include "tests/contract_support.hpp"
 
@@ -253,68 +251,6 @@ TEST(ContractMethods, AreBitwiseEqualOnOneAndFourThreads) {
     const Weights four = scene.method->weights(scene.sites, scene.stencils, derivatives);
     omp_set_num_threads(1);
     EXPECT_EQ(one.values, four.values) << spec;
-  }
-}
-
-TEST(ContractMethods, FailWhenADeclaredNeedIsDropped) {
-  int with_needs = 0;
-  for (const std::string& spec : method_specs(2)) {
-    TestScene<2> scene = make_scene<2>(spec, "perturbed", 10, 3);
-    if (!scene.method->needs().volumes) {
-      EXPECT_EQ(scene.sites.volumes.size(), 0) << spec << " is served with what it declares only";
-      continue;
-    }
-    ++with_needs;
-    scene.sites.volumes.resize(0);
-    EXPECT_THROW(scene.method->weights(scene.sites, scene.stencils, {{1, 0}}), CaseError) << spec;
-  }
-  EXPECT_GE(with_needs, 2);  // mfpm_original and gfdm[weight=volume] at least
-}
-
-TEST(ContractMethods, DeclineDerivativesTheyCannotGive) {
-  for (const std::string& spec : method_specs(3)) {
-    const auto method = make_method<2>(spec).made;
-    EXPECT_EQ(method->unsupported({{1, 0}}), "") << spec;
-    EXPECT_NE(method->unsupported({{15, 15}}), "") << spec;
-  }
-}
-
-/// Weights at node 0 of hand-made nodes with the whole cloud as stencil, or the error's message.
-template <int Dim>
-std::string error_of(const std::string& spec, const Points<Dim>& nodes, int size) {
-  Sites<Dim> sites = sites_at_nodes<Dim>(nodes);
-  std::fill(sites.wanted.begin() + 1, sites.wanted.end(), 0);
-  sites.volumes = Eigen::VectorXd::Ones(nodes.cols());
-  std::vector<int> stencil(size);
-  std::iota(stencil.begin(), stencil.end(), 0);
-  sort_stencil<Dim>(sites, 0, stencil);
-  Stencils stencils;
-  for (int a = 0; a < sites.anchor_count(); ++a) {
-    stencils.push_back(a == 0 ? std::span<const int>(stencil) : std::span<const int>{});
-  }
-  try {
-    make_method<Dim>(spec).made->weights(sites, stencils, {{1, 0}});
-  } catch (const CaseError& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
-TEST(ContractMethods, NameTheNodeAndTheRemedyOfDegenerateStencils) {
-  const Points<2> scattered = make_cloud<2>(UnitCube<2>{}, "perturbed", LayoutRequest{9, 1}).nodes;
-  Points<2> line = scattered;
-  for (int i = 0; i < line.cols(); ++i) line.col(i) << 0.1 * i, 0.03 * i + 1;
-  Points<2> twice = scattered;
-  twice.col(40) = twice.col(7);
-  for (const std::string& spec : method_specs(4)) {
-    for (const std::string& message :
-         {error_of<2>(spec, scattered, 2), error_of<2>(spec, line, 60)}) {
-      EXPECT_NE(message.find("node 0"), std::string::npos) << spec << ": " << message;
-      EXPECT_NE(message.find("larger k"), std::string::npos) << spec << ": " << message;
-    }
-    const std::string coincident = error_of<2>(spec, twice, 60);
-    EXPECT_NE(coincident.find("node 0"), std::string::npos) << spec << ": " << coincident;
-    EXPECT_NE(coincident.find("same place"), std::string::npos) << spec << ": " << coincident;
   }
 }
 

@@ -110,6 +110,21 @@ class PlotTest(unittest.TestCase):
         self.assertEqual([label for label, _ in bars[41]], ["mfpm, sort", "mfpm, cells"])
         self.assertAlmostEqual(bars[41][0][1]["search"], 41**-2)
 
+    def test_each_algorithm_has_a_panel_a_level_with_the_shares_that_fit(self):
+        module = loaded()
+        columns = {"sort": {41: [("mfpm", {"search": 9.0, "matrix": 1.0, "inversion": 0.001})]},
+                   "cells": {41: [("mfpm", {"search": 0.03, "inversion": 0.01})]}}
+        figures = []
+        module.save = lambda figure, *_: figures.append(figure)
+        self.assertTrue(module.draw_bars(columns, module.PHASES, "title", self.directory, "name"))
+        panels = figures[0].axes
+        self.assertEqual([axes.get_title("left") for axes in panels], ["level 41, sort", "level 41, cells"])
+        self.assertEqual([[text.get_text() for text in axes.texts] for axes in panels],
+                         [["90 %", "10 %"], ["75 %", "25 %"]])
+        self.assertGreater(panels[0].get_xlim()[1], 100 * panels[1].get_xlim()[1])
+        self.assertEqual([text.get_text() for text in panels[1].get_legend().get_texts()],
+                         ["search", "matrix", "inversion"])
+
     def test_failed_rows_leave_the_curve_to_the_others(self):
         rows = self.error_rows()
         rows[1].update(value="", status="failed", reason="singular, at node 3")

@@ -84,6 +84,14 @@ inline StencilSurplus lean_surplus(int order) {
   return order <= 2 ? StencilSurplus{1, 1.5, 2} : StencilSurplus{1, 2, 2};
 }
 
+/// The stencil rule of those methods: in 1D the neighbours on either side (thesis 2.1.1; the
+/// nearest ones may all lie on one side), otherwise the nearest nodes, grown until well conditioned
+/// at the orders that the limit was made for.
+inline std::string default_lean_stencil(int dim, int order) {
+  if (order > 2) return "nearest";
+  return dim == 1 ? "star[per_sector=1]" : "grow_until";
+}
+
 /// Makes a Taylor-fit method; `name` is used in messages. Stencils are sized by the surplus, but
 /// never too small for a flat boundary of a grid.
 template <int Dim>

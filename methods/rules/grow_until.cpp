@@ -26,6 +26,7 @@ class GrowUntil final : public StencilRule<Dim> {
                   const NeighbourSearch<Dim>& search) const override {
     std::vector<std::vector<int>> chosen;
     const Stencils base = base_->select(sites, anchors, method, search);
+    chosen.reserve(base.size());
     for (int i = 0; i < base.size(); ++i) chosen.emplace_back(base[i].begin(), base[i].end());
     std::vector<int> bad(anchors.size());  // positions in `anchors` still to be judged
     std::iota(bad.begin(), bad.end(), 0);

@@ -3,8 +3,8 @@
 #include <chrono>
 #include <ctime>
 #include <fstream>
-#include <string>
 #include <malloc.h>
+#include <string>
 #include <sys/resource.h>
 
 namespace strongpoint {

@@ -1,0 +1,98 @@
+// The loop over centres allocates nothing per centre: tables and workspaces are allocated once.
+#include <atomic>
+#include <cstdint>
+#include <cstdlib>
+#include <dlfcn.h>
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include "tests/contract_support.hpp"
+
+namespace strongpoint {
+namespace {
+
+/// Calls of malloc so far, which operator new and Eigen both end in.
+std::atomic<std::int64_t> allocations{0};
+
+}  // namespace
+}  // namespace strongpoint
+
+// The address sanitiser replaces malloc itself, and a second replacement would break it.
+#ifdef __SANITIZE_ADDRESS__
+constexpr bool counts_allocations = false;
+#else
+constexpr bool counts_allocations = true;
+
+/// Counts, then asks the C library, which lies behind this program when names are looked up.
+extern "C" void* malloc(std::size_t size) noexcept {
+  using Malloc = void*(std::size_t);
+  static Malloc* const library_malloc = reinterpret_cast<Malloc*>(dlsym(RTLD_NEXT, "malloc"));
+  strongpoint::allocations.fetch_add(1, std::memory_order_relaxed);
+  return library_malloc(size);
+}
+#endif
+
+namespace strongpoint {
+namespace {
+
+/// Growth by doubling of tables whose size is not known before: two more doublings for four times
+/// the nodes, of about four tables in each of two zones.
+constexpr std::int64_t growth_by_doubling = 16;
+
+/// Every registered method by its default spec, and a fit of high order, which is solved by QR.
+std::vector<std::string> counted_methods() {
+  std::vector<std::string> specs = {"mfpm[order=6]"};
+  for (const MethodEntry& entry : methods()) specs.push_back(entry.info.name);
+  return specs;
+}
+
+/// Allocations that computing all weights of a perturbed cloud takes on one thread.
+template <int Dim>
+std::int64_t allocations_of(const std::string& spec, int level) {
+  const TestScene<Dim> scene = make_scene<Dim>(spec, "perturbed", level, 1);
+  const Derivatives<Dim> derivatives = Derivatives<Dim>::between_orders(1, 2);
+  omp_set_num_threads(1);
+  const std::int64_t before = allocations;
+  const Weights weights = scene.method->weights(scene.sites, scene.stencils, derivatives);
+  const std::int64_t taken = allocations - before;
+  EXPECT_EQ(weights.size(), scene.sites.node_count());
+  return taken;
+}
+
+class Allocation : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!counts_allocations) GTEST_SKIP() << "the address sanitiser owns malloc";
+  }
+};
+
+TEST_F(Allocation, OfVectorsAndOfEigenIsCounted) {
+  const std::int64_t before = allocations;
+  std::vector<Eigen::VectorXd> matrices;
+  std::vector<std::vector<double>> vectors;
+  for (int i = 1; i <= 100; ++i) {
+    matrices.emplace_back(i);
+    vectors.emplace_back(i);
+  }
+  EXPECT_GE(allocations - before, 200) << matrices.back().size() + vectors.back().size();
+}
+
+TEST_F(Allocation, OfWeightsDoesNotGrowWithTheNumberOfCentresIn2D) {
+  for (const std::string& spec : counted_methods()) {
+    const std::int64_t few = allocations_of<2>(spec, 16);   // 256 centres
+    const std::int64_t many = allocations_of<2>(spec, 32);  // 1024
+    EXPECT_LE(many, few + growth_by_doubling) << spec << " takes " << few << " for a quarter";
+  }
+}
+
+TEST_F(Allocation, OfWeightsDoesNotGrowWithTheNumberOfCentresIn3D) {
+  for (const char* spec : {"mfpm", "lsfdm", "rbf_fd"}) {
+    const std::int64_t few = allocations_of<3>(spec, 6);    // 216 centres
+    const std::int64_t many = allocations_of<3>(spec, 10);  // 1000
+    EXPECT_LE(many, few + growth_by_doubling) << spec << " takes " << few << " for a quarter";
+  }
+}
+
+}  // namespace
+}  // namespace strongpoint
