@@ -35,16 +35,17 @@ Eigen::MatrixXd apply(const Weights& weights, const Eigen::VectorXd& values) {
   return result;
 }
 
-/// Relative error of one derivative over the nodes of one zone.
-double zone_error(const Eigen::VectorXd& computed, const Eigen::VectorXd& exact,
-                  const std::vector<Zone>& zone_of, Zone zone) {
+/// Relative error of one derivative over the nodes of one zone; none where the derivative vanishes.
+Quantity zone_error(const std::string& name, const Eigen::VectorXd& computed,
+                    const Eigen::VectorXd& exact, const std::vector<Zone>& zone_of, Zone zone) {
   std::vector<Eigen::Index> nodes;
   for (std::size_t i = 0; i < zone_of.size(); ++i) {
     if (zone_of[i] == zone) nodes.push_back(static_cast<Eigen::Index>(i));
   }
   const Eigen::VectorXd a = computed(nodes);
   const Eigen::VectorXd b = exact(nodes);
-  return relative_error(a, b);
+  if (b.norm() > 0) return {name, relative_error(a, b), {}, {}};
+  return {name, {}, "the exact derivative is zero: there is no relative error", {}};
 }
 
 template <int Dim>
@@ -71,10 +72,9 @@ CaseResult run(const FieldProblem<Dim>& problem, const CaseKey& key, const RunOp
   const Eigen::MatrixXd computed = apply(scene.weights, exact.row(0));
   for (const auto& [zone, suffix] : zones) {
     for (int d = 0; d < scene.derivatives.size(); ++d) {
-      const double error =
-          zone_error(computed.row(d), exact.row(d + 1), scene.sites.anchor_zone, zone);
+      const std::string name = name_of<Dim>(scene.derivatives[d]) + "_" + suffix;
       result.quantities.push_back(
-          {name_of<Dim>(scene.derivatives[d]) + "_" + suffix, error, {}, {}});
+          zone_error(name, computed.row(d), exact.row(d + 1), scene.sites.anchor_zone, zone));
     }
   }
   result.nodes = scene.cloud.size();

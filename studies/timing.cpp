@@ -104,7 +104,10 @@ int main(int argc, char** argv) {
   study.extra_options = {
       {"algorithms", "both",
        "both | sort | cells | none: how the instrumented run finds neighbours and "
-       "judges conditions (sort: full sort, 1-norm estimate; cells: cells, SVD)"}};
+       "judges conditions (sort: full sort, 1-norm estimate; cells: cells, SVD); it starts from "
+       "the "
+       "method's own number of nearest nodes and grows to cond(S A) <= 4e8, whatever --stencil "
+       "says"}};
   study.quantities = quantities;
   study.run = run;
   return run_study(argc, argv, study);

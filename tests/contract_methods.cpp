@@ -12,7 +12,9 @@ namespace {
 
 /// Round-off of a sum of weighted values, relative to the sum of their magnitudes. Orders up to 8
 /// are solved with condition numbers up to about 1e6, which costs that factor.
-double reproduction_tolerance(int degree) { return degree <= 4 ? 1e-11 : 1e-9; }
+double reproduction_tolerance(int degree) {
+  return degree <= 2 ? 1e-11 : degree <= 4 ? 1e-10 : 1e-9;
+}
 
 /// Largest residual of the weights on a monomial centred at the point and scaled by the stencil
 /// radius, relative to sum |w| |p|, over points and derivatives.

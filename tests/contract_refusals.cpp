@@ -1,10 +1,14 @@
 // What methods refuse, and that they say why: missing needs, derivatives, degenerate stencils.
 #include <algorithm>
+#include <memory>
 #include <numeric>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
+#include <omp.h>
 
 #include "methods/core/error.hpp"
+#include "methods/core/taylor_fit.hpp"
 #include "tests/contract_support.hpp"
 
 namespace strongpoint {
@@ -70,6 +74,27 @@ TEST(ContractRefusals, NameTheNodeAndTheRemedyOfDegenerateStencils) {
     EXPECT_NE(coincident.find("node 0"), std::string::npos) << spec << ": " << coincident;
     EXPECT_NE(coincident.find("same place"), std::string::npos) << spec << ": " << coincident;
   }
+}
+
+/// Gives up on a stencil of some size, as a user's weight might.
+class ThrowingWeight final : public WeightFunction {
+ public:
+  void squared(std::span<const double>, std::span<double>) const override {
+    throw std::runtime_error("this weight gives up");
+  }
+};
+
+TEST(ContractRefusals, WhatAKernelThrowsLeavesTheParallelLoopAsAnError) {
+  const auto method = make_taylor_method<2>("thrower", 2, std::make_shared<ThrowingWeight>(),
+                                            StencilSurplus{2, 2, 2}, "nearest");
+  const TestScene<2> scene = make_scene<2>("lsfdm", "grid", 15, 1);
+  omp_set_num_threads(4);
+  EXPECT_THROW(method->weights(scene.sites, scene.stencils, {{1, 0}}), std::runtime_error);
+  const std::vector<int> anchors = scene.sites.wanted_anchors();
+  EXPECT_THROW(
+      method->condition(scene.sites, anchors, scene.stencils, Scaling::both, ConditionNorm::two),
+      std::runtime_error);
+  omp_set_num_threads(1);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ else:
 CONTRACT = ("study,problem,method,stencil,cloud,form,solver,level,nodes,unknowns,spacing,quantity,value,"
             "rate,status,reason").split(",")
 TIMES = ("threads,t_cloud,t_prepare,t_neighbours,t_stencils,t_weights,t_assemble,t_solve,t_total,"
-         "peak_mb").split(",")
+         "peak_mb,residual").split(",")
 QUICK = ["--problem", "poisson_square", "--method", "mfpm", "--levels", "9,11"]
 DEADLINE = 120  # seconds; generous, as a sanitised build is slow
 

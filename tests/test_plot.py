@@ -13,7 +13,7 @@ PLOT = pathlib.Path(__file__).resolve().parent.parent / "results" / "plot"
 CONTRACT = ("study,problem,method,stencil,cloud,form,solver,level,nodes,unknowns,spacing,quantity,value,"
             "rate,status,reason").split(",")
 TIMES = ("threads,t_cloud,t_prepare,t_neighbours,t_stencils,t_weights,t_assemble,t_solve,t_total,"
-         "peak_mb").split(",")
+         "peak_mb,residual").split(",")
 
 
 def loaded():

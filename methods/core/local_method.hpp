@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +12,7 @@
 #include "methods/core/error.hpp"
 #include "methods/core/local_stencil.hpp"
 #include "methods/core/method.hpp"
+#include "methods/core/parallel_errors.hpp"
 
 namespace strongpoint {
 
@@ -120,10 +123,14 @@ requires LocalKernel<Kernel, Dim> Weights LocalMethod<Dim, Kernel>::weights(
     const Sites<Dim>& sites, const Stencils& stencils, const Derivatives<Dim>& derivatives)
 const {
   check_needs(sites);
+  if (!std::is_sorted(sites.point_anchor.begin(), sites.point_anchor.end())) {
+    throw std::invalid_argument(traits_.name + ": evaluation points must be grouped by anchor");
+  }
   Weights weights = weights_on_stencils(sites, stencils, derivatives.size());
   std::vector<LocalOutcome> outcomes(sites.anchor_count(), LocalOutcome::ok);
   std::vector<int> first_point(sites.anchor_count(), sites.point_count());
   for (int p = sites.point_count() - 1; p >= 0; --p) first_point[sites.point_anchor[p]] = p;
+  ParallelErrors errors;
 #pragma omp parallel
   {
     LocalStencil<Dim> local;
@@ -131,10 +138,13 @@ const {
 #pragma omp for schedule(dynamic, 64)
     for (int anchor = 0; anchor < sites.anchor_count(); ++anchor) {
       if (stencils[anchor].empty()) continue;
-      outcomes[anchor] =
-          fill(sites, stencils, anchor, first_point[anchor], derivatives, local, work, weights);
+      errors.guard(anchor, [&] {
+        outcomes[anchor] =
+            fill(sites, stencils, anchor, first_point[anchor], derivatives, local, work, weights);
+      });
     }
   }
+  errors.rethrow();
   throw_first_failure(sites, stencils, outcomes, traits_.name, kernel_.needed_nodes());
   return weights;
 }
@@ -146,17 +156,21 @@ requires LocalKernel<Kernel, Dim> std::vector<double> LocalMethod<Dim, Kernel>::
 const {
   check_needs(sites);
   std::vector<double> result(anchors.size());
+  ParallelErrors errors;
 #pragma omp parallel
   {
     LocalStencil<Dim> local;
 #pragma omp for schedule(dynamic, 64)
     for (std::size_t i = 0; i < anchors.size(); ++i) {
-      const LocalOutcome outcome = local.gather(sites, stencils[static_cast<int>(i)], anchors[i]);
-      const bool usable = outcome == LocalOutcome::ok;
-      result[i] = condition_number(
-          usable ? kernel_.local_matrix(local, scaling) : Eigen::MatrixXd::Zero(1, 1), norm);
+      errors.guard(static_cast<std::int64_t>(i), [&] {
+        const LocalOutcome outcome = local.gather(sites, stencils[static_cast<int>(i)], anchors[i]);
+        const bool usable = outcome == LocalOutcome::ok;
+        result[i] = condition_number(
+            usable ? kernel_.local_matrix(local, scaling) : Eigen::MatrixXd::Zero(1, 1), norm);
+      });
     }
   }
+  errors.rethrow();
   return result;
 }
 

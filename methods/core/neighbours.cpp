@@ -11,6 +11,7 @@
 #include "methods/core/neighbours_brute.hpp"
 #include "methods/core/neighbours_grid.hpp"
 #include "methods/core/neighbours_nanoflann.hpp"
+#include "methods/core/parallel_errors.hpp"
 
 namespace strongpoint {
 namespace {
@@ -60,8 +61,8 @@ Stencils search_all(const Engine& engine, const Points<Dim>& queries, const Coll
                     const Start& start) {
   const int count = static_cast<int>(queries.cols());
   std::vector<Stencils> blocks(static_cast<std::size_t>((count + block_size - 1) / block_size));
-#pragma omp parallel for schedule(dynamic)
-  for (int b = 0; b < static_cast<int>(blocks.size()); ++b) {
+  ParallelErrors errors;
+  const auto search_block = [&](int b) {
     Collector collector = prototype;
     const int first = b * block_size;
     const int end = std::min(count, first + block_size);
@@ -73,7 +74,12 @@ Stencils search_all(const Engine& engine, const Points<Dim>& queries, const Coll
       for (const Candidate& found : collector.finish()) blocks[b].nodes.push_back(found.node);
       blocks[b].offsets.push_back(static_cast<std::int64_t>(blocks[b].nodes.size()));
     }
+  };
+#pragma omp parallel for schedule(dynamic)
+  for (int b = 0; b < static_cast<int>(blocks.size()); ++b) {
+    errors.guard(b, [&] { search_block(b); });
   }
+  errors.rethrow();
   return concatenate(blocks);
 }
 

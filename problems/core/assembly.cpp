@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "methods/core/error.hpp"
+#include "methods/core/parallel_errors.hpp"
 
 namespace strongpoint {
 namespace {
@@ -153,13 +154,28 @@ double scale_row(double* values, std::int64_t count, double& right_hand_side) {
   return largest;
 }
 
+/// Runs `work(row, workspace)` for all rows in parallel, with one workspace a thread.
+template <class Work>
+void for_each_row(int rows, const Work& work) {
+  ParallelErrors errors;
+#pragma omp parallel
+  {
+    Workspace workspace;
+#pragma omp for schedule(static)
+    for (int row = 0; row < rows; ++row) {
+      errors.guard(row, [&] { work(row, workspace); });
+    }
+  }
+  errors.rethrow();
+}
+
 void check_rows(const std::vector<double>& largest, const Eigen::VectorXd& right_hand_side,
                 int fields) {
   for (std::size_t row = 0; row < largest.size(); ++row) {
     const bool fine =
         largest[row] > 0 && std::isfinite(right_hand_side[static_cast<Eigen::Index>(row)]);
     if (fine) continue;
-    const char* what = largest[row] == 0 ? "has no entries: its node has no stencil"
+    const char* what = largest[row] == 0 ? "has no entry but zeros (or its node no stencil)"
                                          : "holds a number that is not finite";
     throw CaseError(
         fmt::format("equation {} of node {} {}; check the problem's data and the stencil",
@@ -183,29 +199,20 @@ LinearSystem assemble(const EquationList& equations, const Weights& weights, int
   system.right_hand_side =
       Eigen::Map<const Eigen::VectorXd>(equations.right_hand_sides.data(), rows);
   std::vector<double> largest(rows);
-#pragma omp parallel
-  {
-    Workspace work;
-#pragma omp for schedule(static)
-    for (int row = 0; row < rows; ++row) {
-      system.offsets[row + 1] = count_entries(terms_of(equations, row), weights, fields, work);
-    }
-#pragma omp single
-    {
-      for (int row = 0; row < rows; ++row) system.offsets[row + 1] += system.offsets[row];
-      system.columns.resize(system.offsets.back());
-      system.values.resize(system.offsets.back());
-    }
-#pragma omp for schedule(static)
-    for (int row = 0; row < rows; ++row) {
-      const std::int64_t begin = system.offsets[row];
-      const std::int64_t count = system.offsets[row + 1] - begin;
-      if (count == 0) continue;
-      fill_row(terms_of(equations, row), weights, fields, work, system.columns.data() + begin,
-               system.values.data() + begin);
-      largest[row] = scale_row(system.values.data() + begin, count, system.right_hand_side[row]);
-    }
-  }
+  for_each_row(rows, [&](int row, Workspace& work) {
+    system.offsets[row + 1] = count_entries(terms_of(equations, row), weights, fields, work);
+  });
+  for (int row = 0; row < rows; ++row) system.offsets[row + 1] += system.offsets[row];
+  system.columns.resize(system.offsets.back());
+  system.values.resize(system.offsets.back());
+  for_each_row(rows, [&](int row, Workspace& work) {
+    const std::int64_t begin = system.offsets[row];
+    const std::int64_t count = system.offsets[row + 1] - begin;
+    if (count == 0) return;
+    fill_row(terms_of(equations, row), weights, fields, work, system.columns.data() + begin,
+             system.values.data() + begin);
+    largest[row] = scale_row(system.values.data() + begin, count, system.right_hand_side[row]);
+  });
   check_rows(largest, system.right_hand_side, fields);
   return system;
 }

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "methods/core/error.hpp"
+#include "methods/core/parallel_errors.hpp"
 #include "problems/core/convex_cell.hpp"
 
 namespace strongpoint {
@@ -179,14 +180,16 @@ template <int Dim>
 std::vector<double> measures_of(const PointCloud<Dim>& cloud, const Domain<Dim>& domain,
                                 std::span<const int> nodes, const Stencils& neighbours) {
   std::vector<double> measures(nodes.size());
+  ParallelErrors errors;
 #pragma omp parallel
   {
     CellMaker<Dim> maker(cloud, domain);
 #pragma omp for schedule(dynamic, 64)
     for (int i = 0; i < static_cast<int>(nodes.size()); ++i) {
-      measures[i] = maker.measure(nodes[i], neighbours[i]);
+      errors.guard(i, [&] { measures[i] = maker.measure(nodes[i], neighbours[i]); });
     }
   }
+  errors.rethrow();
   return measures;
 }
 

@@ -104,7 +104,9 @@ class Phases {
         all[j] = {squared_distance(sites_, first + static_cast<int>(i), j), j};
       }
       std::sort(all.begin(), all.end());
-      for (int j = 0; j < std::min(4 * candidates(), sites_.node_count()); ++j) {
+      const int count = std::min(candidates(), sites_.node_count());
+      const double bound = all[count - 1].first * (1 + 2 * tie_tolerance);
+      for (int j = 0; j < sites_.node_count() && all[j].first <= bound; ++j) {
         centres[i].near.push_back(all[j].second);
       }
     }
@@ -113,8 +115,10 @@ class Phases {
   /// Takes at least `wanted` candidates, with the ties of the last.
   void take(int node, Centre<Dim>& centre, std::size_t wanted) {
     if (wanted > centre.near.size()) {
-      throw CaseError(fmt::format("the stencil of node {} {} stays ill-conditioned with {} nodes",
-                                  node, format_point(sites_.nodes.col(node)), centre.near.size()));
+      throw CaseError(
+          fmt::format("the stencil of node {} at {} stays ill-conditioned with {} nodes; use more "
+                      "or other nodes",
+                      node, format_point(sites_.nodes.col(node)), centre.near.size()));
     }
     const double bound =
         squared_distance(sites_, node, centre.near[wanted - 1]) * (1 + 2 * tie_tolerance);

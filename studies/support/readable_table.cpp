@@ -141,7 +141,8 @@ std::string time_lines(const Block& block, Span span) {
       {"t_cloud", &StageTimes::cloud},           {"t_prepare", &StageTimes::prepare},
       {"t_neighbours", &StageTimes::neighbours}, {"t_stencils", &StageTimes::stencils},
       {"t_weights", &StageTimes::weights},       {"t_assemble", &StageTimes::assemble},
-      {"t_solve", &StageTimes::solve},           {"peak_mb", &StageTimes::peak_mb}};
+      {"t_solve", &StageTimes::solve},           {"peak_mb", &StageTimes::peak_mb},
+      {"residual", &StageTimes::residual}};
   std::string text;
   const auto line = [&](const char* name, auto&& number_of) {
     const std::string label = *name == 't' ? std::string(name) + " [s]" : std::string(name);

@@ -123,8 +123,9 @@ std::vector<Column> columns_of(const Study& study) {
       {"nodes", number}, {"unknowns", number}, {"spacing", number}, {"quantity", text},
       {"value", number}, {"rate", number},     {"status", text},    {"reason", text}};
   if (study.timed) {
-    for (const char* name : {"threads", "t_cloud", "t_prepare", "t_neighbours", "t_stencils",
-                             "t_weights", "t_assemble", "t_solve", "t_total", "peak_mb"}) {
+    for (const char* name :
+         {"threads", "t_cloud", "t_prepare", "t_neighbours", "t_stencils", "t_weights",
+          "t_assemble", "t_solve", "t_total", "peak_mb", "residual"}) {
       columns.push_back({name, number});
     }
   }
@@ -158,6 +159,7 @@ std::vector<std::string> fields_of(const Row& row, const Study& study) {
     }
     fields.push_back(row.times ? fmt::format("{}", row.times->total()) : "");
     fields.push_back(row.times ? fmt::format("{}", row.times->peak_mb) : "");
+    fields.push_back(row.times ? fmt::format("{}", row.times->residual) : "");
   }
   fields.insert(fields.end(), row.extra.begin(), row.extra.end());
   fields.push_back(row.version);
@@ -189,6 +191,7 @@ Row row_from_fields(const std::vector<std::string>& fields, const Study& study) 
     // The total is the sum of the stages; it also tells whether the case was timed at all.
     const bool has_times = read.number<double>().has_value();
     times.peak_mb = read.number<double>().value_or(0);
+    times.residual = read.number<double>().value_or(0);
     if (has_times) row.times = times;
   }
   for (std::size_t i = 0; i < study.extra_columns.size(); ++i) row.extra.push_back(read.text());

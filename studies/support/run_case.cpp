@@ -58,6 +58,7 @@ CaseResult run_once(const SteadyProblem<Dim>& problem, const CaseKey& key,
   });
   const LinearSolution linear = clock.time(times.solve, [&] { return solve(system, key.solver); });
   times.peak_mb = peak_memory_mb();
+  times.residual = linear.residual;
 
   const Solution<Dim> solution{
       scene.cloud,
@@ -155,7 +156,8 @@ StageTimes fastest(const StageTimes& a, const StageTimes& b) {
           .assemble = std::min(a.assemble, b.assemble),
           .solve = std::min(a.solve, b.solve),
           .voronoi = std::min(a.voronoi, b.voronoi),
-          .peak_mb = std::max(a.peak_mb, b.peak_mb)};
+          .peak_mb = std::max(a.peak_mb, b.peak_mb),
+          .residual = std::max(a.residual, b.residual)};
 }
 
 template PointCloud<1> make_case_cloud(const Domain<1>&, const CaseKey&, const RunOptions&);

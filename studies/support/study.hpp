@@ -35,11 +35,12 @@ struct Quantity {
   std::vector<std::string> extra;  ///< one text per extra column of the study
 };
 
-/// Seconds spent in each stage, and the peak memory of the case.
+/// Seconds spent in each stage, the peak memory of the case and the residual of its linear solve.
 struct StageTimes {
   double cloud = 0, prepare = 0, neighbours = 0, stencils = 0, weights = 0, assemble = 0, solve = 0;
   double voronoi = 0;  ///< the part of `prepare` spent on Voronoi cells
   double peak_mb = 0;
+  double residual = 0;  ///< of the linear solve, relative, after row scaling
 
   double total() const {
     return cloud + prepare + neighbours + stencils + weights + assemble + solve;
