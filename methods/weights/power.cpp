@@ -2,7 +2,7 @@
 
 namespace strongpoint {
 
-/// T^2 = r^-p.
+/// T^2 = r^-p. Source: Benito, Urena, Gavete 2001 (powers of the distance).
 WeightEntry weight_power() {
   return {{"power", "T^2 = r^-p", {{"p", "4", "power of the distance in T^2, 0 to 16"}}},
           [](const Options& options) {
