@@ -43,7 +43,6 @@ class PolyharmonicFit {
     HouseholderQr polynomials;       ///< QR of the (n, m) polynomial matrix
     Ldlt definite;                   ///< projected r^phs, (n - m, n - m)
     std::vector<double> kernel;      ///< Q^T Phi Q, (n, n)
-    std::vector<double> column;      ///< (n)
     std::vector<double> radial;      ///< (n)
     std::vector<double> constraint;  ///< (m)
     Derivatives<Dim> prepared;       ///< the derivatives that `radials` belongs to
