@@ -17,9 +17,7 @@ class Zoned final : public Method<Dim> {
   const Method<Dim>& in_zone(Zone zone) const override {
     return zone == Zone::interior ? *interior_ : *boundary_;
   }
-  Needs needs() const override {
-    return {.volumes = interior_->needs().volumes || boundary_->needs().volumes};
-  }
+  Needs needs() const override { return interior_->needs() | boundary_->needs(); }
   Promises promises() const override {
     const Promises a = interior_->promises();
     const Promises b = boundary_->promises();
@@ -101,6 +99,13 @@ MethodEntry method_zoned() {
             Named<Method<Dim>> boundary = make_method<Dim>(options.text("boundary"));
             options.set("interior", interior.spec);
             options.set("boundary", boundary.spec);
+            for (const Named<Method<Dim>>* method : {&interior, &boundary}) {
+              if (method->made->promises().local) continue;
+              throw UsageError(
+                  fmt::format("zoned: {} uses every node of the cloud and cannot stand "
+                              "in a zone; name a local method",
+                              method->spec));
+            }
             return std::make_unique<Zoned<Dim>>(std::move(interior.made), std::move(boundary.made));
           })};
 }

@@ -9,12 +9,22 @@ namespace {
 constexpr std::array<std::pair<Zone, const char*>, 2> zones{
     {{Zone::interior, "interior"}, {Zone::boundary, "boundary"}}};
 
+/// The derivatives judged: the value too, where a method does not take it from the node.
+template <int Dim>
+Derivatives<Dim> judged(const FieldProblem<Dim>& problem, const Method<Dim>& method) {
+  Derivatives<Dim> all;
+  if (!method.promises().interpolates) all.merge({MultiIndex<Dim>{}});
+  all.merge(problem.derivatives());
+  return all;
+}
+
 std::vector<std::string> quantities(const CaseKey& key, const Options&) {
   return with_problem<FieldProblem>(key.problem, "field",
-                                    []<int Dim>(const FieldProblem<Dim>& problem) {
+                                    [&]<int Dim>(const FieldProblem<Dim>& problem) {
                                       std::vector<std::string> names;
+                                      const auto method = make_method<Dim>(key.method).made;
                                       for (const auto& [zone, suffix] : zones) {
-                                        for (const MultiIndex<Dim>& alpha : problem.derivatives()) {
+                                        for (const auto& alpha : judged(problem, *method)) {
                                           names.push_back(name_of<Dim>(alpha) + "_" + suffix);
                                         }
                                       }
@@ -54,7 +64,7 @@ CaseResult run(const FieldProblem<Dim>& problem, const CaseKey& key, const RunOp
   const StageClock clock(options.threads);
   const Choices<Dim> choices(key);
   Discretisation<Dim> scene;
-  scene.derivatives = problem.derivatives();
+  scene.derivatives = judged(problem, *choices.method);
   scene.cloud = make_case_cloud<Dim>(problem.domain(), key, options);
   scene.sites = sites_at_nodes<Dim>(scene.cloud.nodes);
   scene.sites.block = scene.cloud.block;
@@ -63,18 +73,19 @@ CaseResult run(const FieldProblem<Dim>& problem, const CaseKey& key, const RunOp
   }
   compute_weights<Dim>(scene, problem.domain(), choices, options, clock, result.times);
 
-  Derivatives<Dim> wanted{MultiIndex<Dim>{}};
-  wanted.merge(scene.derivatives);
-  Eigen::MatrixXd exact(wanted.size(), scene.cloud.size());
+  const Derivatives<Dim> value{MultiIndex<Dim>{}};
+  Eigen::VectorXd values(scene.cloud.size());
+  Eigen::MatrixXd exact(scene.derivatives.size(), scene.cloud.size());
   for (int i = 0; i < scene.cloud.size(); ++i) {
-    exact.col(i) = problem.exact(scene.cloud.nodes.col(i), wanted);
+    values[i] = problem.exact(scene.cloud.nodes.col(i), value)[0];
+    exact.col(i) = problem.exact(scene.cloud.nodes.col(i), scene.derivatives);
   }
-  const Eigen::MatrixXd computed = apply(scene.weights, exact.row(0));
+  const Eigen::MatrixXd computed = apply(scene.weights, values);
   for (const auto& [zone, suffix] : zones) {
     for (int d = 0; d < scene.derivatives.size(); ++d) {
       const std::string name = name_of<Dim>(scene.derivatives[d]) + "_" + suffix;
       result.quantities.push_back(
-          zone_error(name, computed.row(d), exact.row(d + 1), scene.sites.anchor_zone, zone));
+          zone_error(name, computed.row(d), exact.row(d), scene.sites.anchor_zone, zone));
     }
   }
   result.nodes = scene.cloud.size();

@@ -67,10 +67,20 @@ TEST(ContractRules, NearestKeepsTiesUnlessToldToCutThem) {
 
 TEST(ContractRules, RadiusMeasuresTheSpacingAtEdgesAndCornersToo) {
   TestScene<2> scene = make_scene<2>("mfpm", "grid", 11, 1);
-  const Stencils stencils = select<2>("radius[factor=1.5]", scene);
+  const Stencils stencils = select<2>("radius[factor=1.5,least=1]", scene);
   EXPECT_EQ(stencils[60].size(), 9U);
   EXPECT_EQ(stencils[5].size(), 6U);
   EXPECT_EQ(stencils[0].size(), 4U);
+}
+
+TEST(ContractRules, RadiusTakesNeverFewerNodesThanTheMethodNeeds) {
+  TestScene<2> scene = make_scene<2>("lsfdm", "random", 14, 1);
+  const Stencils stencils = select<2>("radius[factor=1.1]", scene);
+  const Stencils thirty = select<2>("radius[factor=1.1,least=30]", scene);
+  for (int a = 0; a < stencils.size(); ++a) {
+    EXPECT_GE(static_cast<int>(stencils[a].size()), scene.method->stencil_size());
+    EXPECT_GE(thirty[a].size(), 30U);
+  }
 }
 
 TEST(ContractRules, StarTakesTwoNodesOfEachQuadrantAndFillsUpAtBoundaries) {

@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "methods/core/error.hpp"
 #include "methods/core/neighbours.hpp"
 #include "methods/core/registry.hpp"
+#include "methods/core/spacing.hpp"
 #include "problems/core/layout.hpp"
 #include "problems/core/voronoi.hpp"
 
@@ -43,40 +45,59 @@ TestScene<Dim> make_scene(const std::string& method, const std::string& cloud, i
   if (scene.method->needs().volumes) {
     scene.sites.volumes = voronoi_volumes<Dim>(scene.cloud, domain, *search);
   }
+  if (scene.method->needs().spacing) {
+    scene.sites.spacing = local_spacing<Dim>(scene.sites.anchors, scene.sites.nodes, *search);
+  }
   for (int a = 0; a < scene.sites.anchor_count(); ++a) {
     scene.sites.wanted[a] = a % stride == 0 ? 1 : 0;
     if (scene.cloud.is_boundary(a)) scene.sites.anchor_zone[a] = Zone::boundary;
   }
+  if (scene.method->default_stencil() == every_node) return scene;
   const auto rule = make_rule<Dim>(scene.method->default_stencil()).made;
   scene.stencils = select_stencils<Dim>(*rule, scene.sites, *scene.method, *search);
   return scene;
 }
 
-/// Every registered method by its default spec, then at the other orders or degrees it offers up to
-/// `most`, then GFDM with every registered weight function.
-inline std::vector<std::string> method_specs(int most) {
+/// True when a spec's values are within what the method offers and it exists in the dimension.
+template <int Dim>
+bool is_offered(const std::string& spec) {
+  try {
+    return make_method<Dim>(spec).made->unsupported({}).empty();
+  } catch (const UsageError&) {
+    return false;
+  }
+}
+
+/// Every registered method that exists in the dimension by its default spec, then at the other
+/// orders or degrees it offers up to `most`, then GFDM with every registered weight function.
+template <int Dim = 2>
+std::vector<std::string> method_specs(int most) {
   std::vector<std::string> specs;
+  const auto add = [&](const std::string& spec) {
+    if (is_offered<Dim>(spec)) specs.push_back(spec);
+  };
   for (const MethodEntry& entry : methods()) {
-    specs.push_back(entry.info.name);
+    add(entry.info.name);
     for (const OptionDoc& option : entry.info.options) {
       if (option.key != "order" && option.key != "degree") continue;
       for (int p = 1; p <= most; ++p) {
-        specs.push_back(entry.info.name + "[" + option.key + "=" + std::to_string(p) + "]");
+        add(entry.info.name + "[" + option.key + "=" + std::to_string(p) + "]");
       }
     }
   }
   for (const WeightEntry& entry : weight_functions()) {
-    specs.push_back("gfdm[weight=" + entry.info.name + "]");
+    add("gfdm[weight=" + entry.info.name + "]");
   }
   return specs;
 }
 
-/// All derivatives of a method's local approximation that it supports, the value included.
+/// All derivatives that a method supports, up to the order of the polynomials it reproduces and at
+/// least the second, the value included.
 template <int Dim>
 Derivatives<Dim> supported_derivatives(const Method<Dim>& method) {
   Derivatives<Dim> result;
   for (const MultiIndex<Dim>& alpha :
-       Derivatives<Dim>::between_orders(0, std::max(1, method.promises().reproduces))) {
+       Derivatives<Dim>::between_orders(0, std::max(2, method.promises().reproduces))) {
     if (method.unsupported({alpha}).empty()) result.merge({alpha});
   }
   return result;

@@ -74,6 +74,7 @@ LocalOutcome LocalStencil<Dim>::gather(const Sites<Dim>& sites, std::span<const 
   const double inverse = 1 / radius;
   for (double& component : z) component *= inverse;
   for (double& distance : rho) distance *= inverse;
+  spacing = sites.spacing.size() > 0 ? sites.spacing[anchor] * inverse : 0;
   volumes.clear();
   if (sites.volumes.size() > 0) {
     const double unit = std::pow(inverse, Dim);

@@ -27,6 +27,7 @@ struct LocalStencil {
   int size = 0;             ///< n, nodes, the centre included
   int centre = -1;          ///< position of the node at the anchor, -1 when there is none
   double radius = 1;        ///< R, the largest distance from the anchor
+  double spacing = 0;       ///< local node spacing over R, 0 when the sites have none
   std::vector<double> z;    ///< (Dim, n) positions relative to the anchor over R, node after node
   std::vector<double> rho;  ///< (n) distances over R
   std::vector<double> volumes;  ///< (n) cell measures over R^Dim, empty when the sites have none

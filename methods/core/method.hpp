@@ -30,6 +30,9 @@ enum class Scaling {
 /// The norm a condition number is measured in.
 enum class ConditionNorm { two, one };
 
+/// The stencil of a method whose weights use every node of the cloud: no rule is asked.
+inline constexpr const char* every_node = "all";
+
 /// A way to approximate derivatives on scattered nodes.
 template <int Dim>
 class Method {
@@ -44,9 +47,11 @@ class Method {
   virtual Promises promises() const = 0;
   /// Nodes in a stencil when a rule is not told how many, the centre included.
   virtual int stencil_size() const = 0;
-  /// The stencil rule this method is run with when none is named.
+  /// The stencil rule this method is run with when none is named; `every_node` with a method that
+  /// is not local, whose stencils stay empty.
   virtual std::string default_stencil() const { return "nearest"; }
-  /// Why these derivatives cannot be given, in a sentence; empty when they can.
+  /// Why these derivatives cannot be given, in a sentence; empty when they can. Asked for no
+  /// derivative at all, why the method does not exist in this dimension.
   virtual std::string unsupported(const Derivatives<Dim>& derivatives) const = 0;
   /// Weights of every evaluation point. Throws CaseError naming the lowest node whose stencil is
   /// degenerate, too small or holds coincident nodes.

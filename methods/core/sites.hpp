@@ -15,6 +15,15 @@ enum class Zone : std::uint8_t { interior, boundary };
 /// What a method wants prepared beside the nodes; whatever is not asked for is not made.
 struct Needs {
   bool volumes = false;  ///< measure of each node's cell
+  bool spacing = false;  ///< local spacing of the nodes around each anchor
+  bool block = false;    ///< an index block: the cloud has to be structured
+
+  /// What either of two methods wants.
+  friend Needs operator|(const Needs& a, const Needs& b) {
+    return {.volumes = a.volumes || b.volumes,
+            .spacing = a.spacing || b.spacing,
+            .block = a.block || b.block};
+  }
 };
 
 /// Index block of a structured cloud: node id = (i0 * shape[1] + i1) * shape[2] + i2.
@@ -35,6 +44,7 @@ struct Sites {
   Points<Dim> points;                ///< (Dim, P) derivatives are evaluated here
   std::vector<int> point_anchor;     ///< (P) anchor of each point, ascending
   Eigen::VectorXd volumes;           ///< (N) cell measures, empty unless needed
+  Eigen::VectorXd spacing;           ///< (A) local node spacing, empty unless needed
   std::optional<IndexBlock<Dim>> block;  ///< structured clouds only
 
   int node_count() const { return static_cast<int>(nodes.cols()); }

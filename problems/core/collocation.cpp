@@ -11,19 +11,18 @@ bool reads_value_only(const SteadyProblem<Dim>& problem, std::span<const Boundar
   return problem.derivatives(marks).highest_order() == 0;
 }
 
-/// Point collocation: the equation at each node, boundary conditions at boundary nodes.
+/// Point collocation: the equation at each node, boundary conditions at boundary nodes. With a
+/// method whose nodal parameters are not values, the value is a derivative like any other, and
+/// every node has a stencil.
 template <int Dim>
 class Collocation final : public Form<Dim> {
  public:
-  std::string unsupported(const Method<Dim>& method) const override {
-    if (method.promises().interpolates) return {};
-    return "plain collocation writes Dirichlet rows on nodal values, which this method does not "
-           "have";
-  }
+  std::string unsupported(const Method<Dim>&) const override { return {}; }
 
   Derivatives<Dim> derivatives(const SteadyProblem<Dim>& problem, const PointCloud<Dim>& cloud,
-                               const Method<Dim>&) const override {
+                               const Method<Dim>& method) const override {
     Derivatives<Dim> all;
+    if (!method.promises().interpolates) all.merge({MultiIndex<Dim>{}});
     for (int i = 0; i < cloud.size(); ++i) {
       for (const MultiIndex<Dim>& alpha : problem.derivatives(cloud.marks_of(i))) {
         if (order_of<Dim>(alpha) > 0 && !all.contains(alpha)) all.merge({alpha});
@@ -33,12 +32,13 @@ class Collocation final : public Form<Dim> {
   }
 
   Sites<Dim> sites(const SteadyProblem<Dim>& problem, const PointCloud<Dim>& cloud,
-                   const Method<Dim>&) const override {
+                   const Method<Dim>& method) const override {
+    const bool values_are_known = method.promises().interpolates;
     Sites<Dim> sites = sites_at_nodes<Dim>(cloud.nodes);
     sites.block = cloud.block;
     for (int i = 0; i < cloud.size(); ++i) {
       if (cloud.is_boundary(i)) sites.anchor_zone[i] = Zone::boundary;
-      if (reads_value_only(problem, cloud.marks_of(i))) sites.wanted[i] = 0;
+      if (values_are_known && reads_value_only(problem, cloud.marks_of(i))) sites.wanted[i] = 0;
     }
     return sites;
   }

@@ -46,7 +46,9 @@ class Problem {
 template <int Dim>
 struct Solution {
   const PointCloud<Dim>& cloud;
-  Eigen::MatrixXd fields;               ///< (fields, N) nodal values
+  Eigen::MatrixXd fields;               ///< (fields, N) values at the nodes
+  Eigen::MatrixXd parameters;           ///< (fields, N) what the weights multiply: the values, with
+                                        ///< a method that interpolates
   const Weights& weights;               ///< (N points x nodes)
   const Derivatives<Dim>& derivatives;  ///< of the weights
 

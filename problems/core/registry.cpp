@@ -36,7 +36,7 @@ Eigen::VectorXd Solution<Dim>::derivative(int field, const MultiIndex<Dim>& alph
     const Eigen::Map<const Eigen::MatrixXd> row = weights.row(p);
     double sum = 0;
     for (std::size_t j = 0; j < nodes.size(); ++j) {
-      sum += row(slot, static_cast<Eigen::Index>(j)) * fields(field, nodes[j]);
+      sum += row(slot, static_cast<Eigen::Index>(j)) * parameters(field, nodes[j]);
     }
     result[p] = sum;
   }

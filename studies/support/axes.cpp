@@ -164,6 +164,7 @@ std::vector<int> parse_levels(const std::string& text) {
 template <int Dim>
 std::vector<AxisValue> stencils_for(const AxisValue& method,
                                     const std::optional<AxisText>& written) {
+  if (method.companion == every_node) return {AxisValue{every_node, Status::ok, "", Dim, ""}};
   if (written) return stencil_axis<Dim>(*written);
   if (method.companion.empty()) return {AxisValue{"default", Status::ok, "", Dim, ""}};
   return stencil_axis<Dim>(

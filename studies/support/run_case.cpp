@@ -5,6 +5,7 @@
 #include <omp.h>
 
 #include "methods/core/neighbours.hpp"
+#include "methods/core/spacing.hpp"
 #include "problems/core/assembly.hpp"
 #include "problems/core/layout.hpp"
 #include "problems/core/voronoi.hpp"
@@ -41,6 +42,24 @@ void set_threads(const RunOptions& options) {
   if (openblas_set_num_threads != nullptr) openblas_set_num_threads(1);
 }
 
+/// Values at the nodes, (fields, N): the nodal parameters themselves unless the weights hold the
+/// value, which they do when parameters are not values.
+template <int Dim>
+Eigen::MatrixXd nodal_values(const Discretisation<Dim>& scene, const Eigen::MatrixXd& parameters) {
+  const MultiIndex<Dim> value{};
+  if (!scene.derivatives.contains(value)) return parameters;
+  const int slot = scene.derivatives.index(value);
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(parameters.rows(), parameters.cols());
+  for (int p = 0; p < scene.weights.size(); ++p) {
+    const std::span<const int> nodes = scene.weights.nodes(p);
+    const Eigen::Map<const Eigen::MatrixXd> row = scene.weights.row(p);
+    for (std::size_t j = 0; j < nodes.size(); ++j) {
+      result.col(p) += row(slot, static_cast<Eigen::Index>(j)) * parameters.col(nodes[j]);
+    }
+  }
+  return result;
+}
+
 template <int Dim>
 CaseResult run_once(const SteadyProblem<Dim>& problem, const CaseKey& key,
                     const RunOptions& options) {
@@ -60,10 +79,10 @@ CaseResult run_once(const SteadyProblem<Dim>& problem, const CaseKey& key,
   times.peak_mb = peak_memory_mb();
   times.residual = linear.residual;
 
-  const Solution<Dim> solution{
-      scene.cloud,
-      Eigen::Map<const Eigen::MatrixXd>(linear.x.data(), field_count, scene.cloud.size()),
-      scene.weights, scene.derivatives};
+  const Eigen::MatrixXd parameters =
+      Eigen::Map<const Eigen::MatrixXd>(linear.x.data(), field_count, scene.cloud.size());
+  const Solution<Dim> solution{scene.cloud, nodal_values(scene, parameters), parameters,
+                               scene.weights, scene.derivatives};
   const std::vector<std::string> names = problem.quantities();
   const std::vector<double> values = problem.measure(solution);
   for (std::size_t q = 0; q < names.size(); ++q)
@@ -89,6 +108,9 @@ void compute_weights(Discretisation<Dim>& scene, const Domain<Dim>& domain,
   if (const std::string why = choices.method->unsupported(scene.derivatives); !why.empty()) {
     throw SkipCase(why);
   }
+  if (choices.method->needs().block && !scene.sites.block) {
+    throw SkipCase("the method needs a structured cloud (grid, perturbed, graded)");
+  }
   const auto engine = clock.time(
       times.neighbours, [&] { return make_search<Dim>(options.neighbours, scene.sites.nodes); });
   if (choices.method->needs().volumes) {
@@ -98,14 +120,21 @@ void compute_weights(Discretisation<Dim>& scene, const Domain<Dim>& domain,
     times.voronoi += seconds;
     times.prepare += seconds;
   }
-  double searching = 0;
-  double selecting = 0;
-  const TimedSearch<Dim> search(*engine, clock, searching);
-  scene.stencils = clock.time(selecting, [&] {
-    return select_stencils<Dim>(*choices.rule, scene.sites, *choices.method, search);
-  });
-  times.neighbours += searching;
-  times.stencils += selecting - searching;
+  if (choices.method->needs().spacing) {
+    scene.sites.spacing = clock.time(times.neighbours, [&] {
+      return local_spacing<Dim>(scene.sites.anchors, scene.sites.nodes, *engine);
+    });
+  }
+  if (choices.rule) {
+    double searching = 0;
+    double selecting = 0;
+    const TimedSearch<Dim> search(*engine, clock, searching);
+    scene.stencils = clock.time(selecting, [&] {
+      return select_stencils<Dim>(*choices.rule, scene.sites, *choices.method, search);
+    });
+    times.neighbours += searching;
+    times.stencils += selecting - searching;
+  }
   scene.weights = clock.time(times.weights, [&] {
     return choices.method->weights(scene.sites, scene.stencils, scene.derivatives);
   });

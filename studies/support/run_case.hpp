@@ -27,10 +27,11 @@ struct Discretisation {
 template <int Dim>
 struct Choices {
   std::unique_ptr<Method<Dim>> method;
-  std::unique_ptr<StencilRule<Dim>> rule;
+  std::unique_ptr<StencilRule<Dim>> rule;  ///< none with a method that uses every node
 
   explicit Choices(const CaseKey& key)
-      : method(make_method<Dim>(key.method).made), rule(make_rule<Dim>(key.stencil).made) {}
+      : method(make_method<Dim>(key.method).made),
+        rule(key.stencil == every_node ? nullptr : make_rule<Dim>(key.stencil).made) {}
 };
 
 /// Chooses stencils and computes weights on sites already made, adding only what the method needs;
