@@ -68,7 +68,8 @@ bool is_complete(const std::vector<Row>& rows, const PlannedCase& planned) {
 }  // namespace
 
 Resumed read_resumed(const std::string& path, const std::vector<PlannedCase>& plan,
-                     const Study& study, int threads, const std::string& version) {
+                     const Study& study, int threads, const std::string& version,
+                     const Options& extra) {
   Resumed resumed;
   resumed.cases.resize(plan.size());
   const CsvText text = parse_csv(read_text(path));
@@ -91,7 +92,8 @@ Resumed read_resumed(const std::string& path, const std::vector<PlannedCase>& pl
       const Row row = row_from_fields(text.records[r], study);
       const auto found = place.find(identity_of(row.key));
       const bool fits = row.study == study.name && row.version == version &&
-                        (!study.timed || row.threads == threads);
+                        (!study.timed || row.threads == threads) &&
+                        (!study.keeps || study.keeps(row.key, row.extra, extra));
       if (fits && found != place.end()) {
         resumed.cases[found->second].push_back(row);
       } else {

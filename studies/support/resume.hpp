@@ -19,6 +19,7 @@ struct Resumed {
 /// studies the number of threads must match too. A last line that was torn off is ignored.
 /// Throws UsageError for a file that is not a table of this study.
 Resumed read_resumed(const std::string& path, const std::vector<PlannedCase>& plan,
-                     const Study& study, int threads, const std::string& version);
+                     const Study& study, int threads, const std::string& version,
+                     const Options& extra);
 
 }  // namespace strongpoint

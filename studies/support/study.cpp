@@ -94,7 +94,8 @@ void GridRun::start() {
   Resumed resumed;
   resumed.cases.resize(plan_.size());
   if (!line_.resume.empty()) {
-    resumed = read_resumed(line_.resume, plan_, study_, line_.run.threads, code_version());
+    resumed =
+        read_resumed(line_.resume, plan_, study_, line_.run.threads, code_version(), line_.extra);
     keep_rows_left_out(resumed.left_out);
   }
   const std::lock_guard lock(mutex_);

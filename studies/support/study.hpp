@@ -75,6 +75,10 @@ struct Study {
   /// Names of the quantities a case gives, for rows of failed and skipped cases and to tell whether
   /// a case in a resumed file is complete. May throw SkipCase.
   std::function<std::vector<std::string>(const CaseKey&, const Options& extra)> quantities;
+  /// Whether a row of a resumed file, by its case and extra columns, was computed with these
+  /// options of the study; empty: always.
+  std::function<bool(const CaseKey&, const std::vector<std::string>& columns, const Options& extra)>
+      keeps;
   /// Runs a case. Throws CaseError (a failed row) or SkipCase (a skipped one).
   std::function<CaseResult(const CaseKey&, const RunOptions&, const Options& extra)> run;
 };
