@@ -17,6 +17,11 @@ class StencilKernel {
   /// Reads the options `kernel` and `h`. Throws UsageError.
   explicit StencilKernel(const Options& options)
       : kernel_(options.text("kernel"), Dim), factor_(options.number("h", 0.5, 20)) {}
+  /// The same with a support of so many local spacings when the option `h` was left out.
+  StencilKernel(const Options& options, double default_support)
+      : kernel_(options.text("kernel"), Dim),
+        factor_(options.has("h") ? options.number("h", 0.5, 20)
+                                 : default_support / kernel_.support()) {}
 
   const SmoothingKernel& kernel() const { return kernel_; }
   /// Smoothing length in units of the stencil radius. It stretches where the stencil reaches beyond

@@ -1,0 +1,85 @@
+#include "methods/core/monomial_basis.hpp"
+
+#include <cmath>
+
+#include "methods/core/monomial.hpp"
+
+namespace strongpoint {
+namespace {
+
+/// A column this close to the span of the others makes the fit singular.
+constexpr double rank_tolerance = 1e-11;
+
+}  // namespace
+
+template <int Dim>
+MonomialBasis<Dim>::MonomialBasis(int degree)
+    : degree_(degree), monomials_(Derivatives<Dim>::between_orders(0, degree)) {
+  for (const MultiIndex<Dim>& alpha : monomials_) {
+    int axis = 0;
+    while (axis < Dim && alpha[axis] == 0) ++axis;
+    MultiIndex<Dim> lower = alpha;
+    if (axis < Dim) --lower[axis];
+    axis_.push_back(axis);
+    parent_.push_back(monomials_.index(lower));
+  }
+}
+
+template <int Dim>
+void MonomialBasis<Dim>::evaluate(const double* z, double* result) const {
+  result[0] = 1;
+  for (int a = 1; a < terms(); ++a) result[a] = result[parent_[a]] * z[axis_[a]];
+}
+
+template <int Dim>
+void MonomialBasis<Dim>::differentiate(const Point<Dim>& z, const MultiIndex<Dim>& alpha,
+                                       double* result) const {
+  for (int a = 0; a < terms(); ++a) {
+    result[a] = monomial_derivative<Dim>(monomials_[a], alpha, z);
+  }
+}
+
+template <int Dim>
+LocalOutcome MonomialBasis<Dim>::factorise(const LocalStencil<Dim>& stencil,
+                                           std::span<const double> squared,
+                                           HouseholderQr& qr) const {
+  const int m = terms();
+  if (stencil.size < m) return LocalOutcome::too_small;
+  double* matrix = qr.prepare(stencil.size, m);
+  for (int j = 0; j < stencil.size; ++j) {
+    const double* z = stencil.z.data() + static_cast<std::ptrdiff_t>(j) * Dim;
+    double* row = matrix + j;  // monomials of a node lie one column apart
+    row[0] = std::sqrt(squared[j]);
+    for (int a = 1; a < m; ++a) {
+      row[static_cast<std::ptrdiff_t>(a) * stencil.size] =
+          row[static_cast<std::ptrdiff_t>(parent_[a]) * stencil.size] * z[axis_[a]];
+    }
+  }
+  return qr.factorise(rank_tolerance) ? LocalOutcome::ok : LocalOutcome::singular;
+}
+
+template <int Dim>
+Eigen::MatrixXd MonomialBasis<Dim>::moments(const LocalStencil<Dim>& stencil,
+                                            std::span<const double> squared,
+                                            Scaling scaling) const {
+  const int m = terms();
+  if (stencil.size < m) return Eigen::MatrixXd::Zero(1, 1);
+  Eigen::VectorXd basis(m);
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(m, m);
+  for (int j = 0; j < stencil.size; ++j) {
+    evaluate(stencil.z.data() + static_cast<std::ptrdiff_t>(j) * Dim, basis.data());
+    matrix.noalias() += squared[j] * basis * basis.transpose();
+  }
+  for (int a = 0; a < m; ++a) {
+    double column = 1 / factorial<Dim>(monomials_[a]);
+    if (scaling == Scaling::row) column *= std::pow(stencil.radius, order_of<Dim>(monomials_[a]));
+    matrix.col(a) *= column;
+  }
+  return matrix;
+}
+
+template class MonomialBasis<1>;
+template class MonomialBasis<2>;
+template class MonomialBasis<3>;
+
+}  // namespace strongpoint
