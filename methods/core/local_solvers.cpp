@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace strongpoint {
 
@@ -92,6 +93,59 @@ void Ldlt::solve(std::span<double> b) const {
     b[i] /= row[i];
     for (int k = i + 1; k < n_; ++k) b[i] -= a_[static_cast<std::size_t>(k) * n_ + i] * b[k];
   }
+}
+
+double* Lu::prepare(int n) {
+  n_ = n;
+  a_.resize(static_cast<std::size_t>(n) * n);
+  largest_.resize(n);
+  exchanged_.resize(n);
+  return a_.data();
+}
+
+bool Lu::factorise(double tolerance) {
+  std::fill(largest_.begin(), largest_.end(), 0.0);
+  for (int i = 0; i < n_; ++i) {
+    for (int j = 0; j < n_; ++j) largest_[j] = std::max(largest_[j], std::abs(at(i, j)));
+  }
+  for (int k = 0; k < n_; ++k) {
+    int pivot = k;
+    for (int i = k + 1; i < n_; ++i) {
+      if (std::abs(at(i, k)) > std::abs(at(pivot, k))) pivot = i;
+    }
+    if (!(std::abs(at(pivot, k)) > tolerance * largest_[k])) return false;
+    exchanged_[k] = pivot;
+    if (pivot != k) std::swap_ranges(&at(k, 0), &at(k, 0) + n_, &at(pivot, 0));
+    for (int i = k + 1; i < n_; ++i) {
+      if (at(i, k) == 0) continue;
+      const double factor = at(i, k) / at(k, k);
+      at(i, k) = factor;
+      for (int j = k + 1; j < n_; ++j) at(i, j) -= factor * at(k, j);
+    }
+  }
+  return true;
+}
+
+void Lu::solve(std::span<double> b) const {
+  for (int k = 0; k < n_; ++k) std::swap(b[k], b[exchanged_[k]]);
+  for (int i = 0; i < n_; ++i) {
+    for (int j = 0; j < i; ++j) b[i] -= at(i, j) * b[j];
+  }
+  for (int i = n_ - 1; i >= 0; --i) {
+    for (int j = i + 1; j < n_; ++j) b[i] -= at(i, j) * b[j];
+    b[i] /= at(i, i);
+  }
+}
+
+void Lu::solve_transposed(std::span<double> b) const {
+  for (int i = 0; i < n_; ++i) {
+    for (int j = 0; j < i; ++j) b[i] -= at(j, i) * b[j];
+    b[i] /= at(i, i);
+  }
+  for (int i = n_ - 1; i >= 0; --i) {
+    for (int j = i + 1; j < n_; ++j) b[i] -= at(j, i) * b[j];
+  }
+  for (int k = n_ - 1; k >= 0; --k) std::swap(b[k], b[exchanged_[k]]);
 }
 
 }  // namespace strongpoint

@@ -13,9 +13,6 @@
 namespace strongpoint {
 namespace {
 
-/// Derivatives up to this order of a Gauss bell are offered: as many as of a Taylor fit.
-constexpr int smooth = 8;
-
 /// Integral over the space of a kernel's value at radius q, by Simpson's rule on each piece.
 template <class Value>
 double integral(Value&& value, const std::vector<double>& breaks, int dimension) {
@@ -40,7 +37,7 @@ double integral(Value&& value, const std::vector<double>& breaks, int dimension)
 SmoothingKernel::SmoothingKernel(std::string_view name, int dimension) {
   if (name == "gauss") {
     pieces_ = {{2.6, {}}};
-    smoothness_ = smooth;
+    smoothness_ = most_smoothness;
   } else if (name == "cubic_spline") {
     pieces_ = {{1, {1, 0, -1.5, 0.75}}, {2, {2, -3, 1.5, -0.25}}};
   } else if (name == "quartic_spline") {

@@ -9,6 +9,9 @@
 
 namespace strongpoint {
 
+/// Derivatives of kernels up to this order are offered at most: as many as of a Taylor fit.
+inline constexpr int most_smoothness = 8;
+
 /// A radial kernel W(r) = f(r/h) of compact support, h being the smoothing length, normalised so
 /// that its integral over the space is h^Dim. Offered: `gauss` exp(-q^2) cut at 2.6 h,
 /// `cubic_spline` (B-spline), `quartic_spline` 1 - 6t^2 + 8t^3 - 3t^4 and `wendland` (quintic, C2)
