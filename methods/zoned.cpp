@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -7,6 +8,8 @@
 
 namespace strongpoint {
 namespace {
+
+constexpr std::array zones{Zone::interior, Zone::boundary};
 
 template <int Dim>
 class Zoned final : public Method<Dim> {
@@ -40,13 +43,24 @@ class Zoned final : public Method<Dim> {
 
   Weights weights(const Sites<Dim>& sites, const Stencils& stencils,
                   const Derivatives<Dim>& derivatives) const override {
-    Weights all = weights_on_stencils(sites, stencils, derivatives.size());
-    for (const Zone zone : {Zone::interior, Zone::boundary}) {
-      const Weights part =
-          in_zone(zone).weights(sites, stencils_of(sites, stencils, zone), derivatives);
-      for (int p = 0; p < part.size(); ++p) {
-        if (!part.nodes(p).empty()) all.row(p) = part.row(p);
+    Weights all;
+    all.per_entry = derivatives.size();
+    std::array<Weights, 2> parts;
+    for (std::size_t zone = 0; zone < zones.size(); ++zone) {
+      parts[zone] = in_zone(zones[zone])
+                        .weights(sites, stencils_of(sites, stencils, zones[zone]), derivatives);
+    }
+    all.offsets.reserve(sites.point_anchor.size() + 1);
+    all.columns.reserve(parts[0].columns.size() + parts[1].columns.size());
+    all.values.reserve(parts[0].values.size() + parts[1].values.size());
+    for (int p = 0; p < sites.point_count(); ++p) {
+      for (const Weights& part : parts) {  // a row is empty in all zones but its own
+        const std::span<const int> nodes = part.nodes(p);
+        const double* values = part.row(p).data();
+        all.columns.insert(all.columns.end(), nodes.begin(), nodes.end());
+        all.values.insert(all.values.end(), values, values + part.row(p).size());
       }
+      all.offsets.push_back(static_cast<std::int64_t>(all.columns.size()));
     }
     return all;
   }
@@ -55,7 +69,7 @@ class Zoned final : public Method<Dim> {
                                 const Stencils& stencils, Scaling scaling,
                                 ConditionNorm norm) const override {
     std::vector<double> result(anchors.size());
-    for (const Zone zone : {Zone::interior, Zone::boundary}) {
+    for (const Zone zone : zones) {
       std::vector<int> chosen;
       Stencils chosen_stencils;
       std::vector<std::size_t> places;
