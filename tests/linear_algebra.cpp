@@ -1,4 +1,5 @@
 // Local solvers, assembly and global solvers against dense linear algebra.
+#include <array>
 #include <random>
 
 #include <Eigen/Dense>
@@ -79,21 +80,23 @@ TEST(Condition, OfKnownMatrices) {
 TEST(Polyharmonic, DerivativesOfRadialPowersEqualClosedForms) {
   const Point<2> x(0.3, -0.7);
   const double r = x.norm();
-  const auto at = [&](const MultiIndex<2>& alpha) {
-    return RadialPowerDerivative<2>(5, alpha)(x, r);
+  const auto at = [](int power, const MultiIndex<2>& alpha, const Point<2>& place) {
+    std::array<double, 5> f{};
+    RadialFunction(RadialFunction::Form::odd_power, power)
+        .evaluate(place.squaredNorm(), 0, 4, f.data());
+    return RadialDerivative<2>(alpha)(place, f.data());
   };
-  EXPECT_NEAR(at({0, 0}), std::pow(r, 5), 1e-14);
-  EXPECT_NEAR(at({1, 0}), 5 * std::pow(r, 3) * x[0], 1e-13);
-  EXPECT_NEAR(at({2, 0}), 5 * std::pow(r, 3) + 15 * r * x[0] * x[0], 1e-13);
-  EXPECT_NEAR(at({1, 1}), 15 * r * x[0] * x[1], 1e-13);
-  EXPECT_NEAR(at({2, 0}) + at({0, 2}), 25 * std::pow(r, 3), 1e-13);
+  EXPECT_NEAR(at(5, {0, 0}, x), std::pow(r, 5), 1e-14);
+  EXPECT_NEAR(at(5, {1, 0}, x), 5 * std::pow(r, 3) * x[0], 1e-13);
+  EXPECT_NEAR(at(5, {2, 0}, x), 5 * std::pow(r, 3) + 15 * r * x[0] * x[0], 1e-13);
+  EXPECT_NEAR(at(5, {1, 1}, x), 15 * r * x[0] * x[1], 1e-13);
+  EXPECT_NEAR(at(5, {2, 0}, x) + at(5, {0, 2}, x), 25 * std::pow(r, 3), 1e-13);
   // Differences of one order give the next.
   constexpr double h = 1e-6;
-  const Point<2> right = x + Point<2>(h, 0);
-  const Point<2> left = x - Point<2>(h, 0);
-  const RadialPowerDerivative<2> second(7, {1, 1});
-  EXPECT_NEAR(RadialPowerDerivative<2>(7, {2, 1})(x, r),
-              (second(right, right.norm()) - second(left, left.norm())) / (2 * h), 1e-7);
+  const Point<2> step(h, 0);
+  EXPECT_NEAR(at(7, {2, 1}, x), (at(7, {1, 1}, x + step) - at(7, {1, 1}, x - step)) / (2 * h),
+              1e-7);
+  EXPECT_EQ(at(5, {2, 2}, Point<2>::Zero()), 0);
 }
 
 /// Two nodes, one field, two derivatives, one evaluation point off the nodes.

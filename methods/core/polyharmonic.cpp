@@ -17,53 +17,12 @@ constexpr double rank_tolerance = 1e-11;
 /// Smallest pivot over diagonal entry of the projected kernel matrix that is trusted as definite.
 constexpr double pivot_tolerance = 1e-14;
 
-double factorial_of(int n) { return std::tgamma(n + 1.0); }
-
 }  // namespace
 
 template <int Dim>
-RadialPowerDerivative<Dim>::RadialPowerDerivative(int power, const MultiIndex<Dim>& alpha) {
-  // j[c] counts how often coordinate c contributes the factor from differentiating 2x once more.
-  MultiIndex<Dim> j{};
-  while (true) {
-    Summand summand{1, {}, power};
-    int outer = 0;  // order of the derivative of f(s) = s^(power/2)
-    for (int c = 0; c < Dim; ++c) {
-      const int left = alpha[c] - 2 * j[c];
-      summand.coefficient *=
-          factorial_of(alpha[c]) / (factorial_of(j[c]) * factorial_of(left)) * std::pow(2.0, left);
-      summand.exponents[c] = left;
-      outer += alpha[c] - j[c];
-    }
-    for (int q = 0; q < outer; ++q) summand.coefficient *= 0.5 * power - q;
-    summand.radial_power = power - 2 * outer;
-    summands_.push_back(summand);
-    int c = 0;
-    while (c < Dim && 2 * (j[c] + 1) > alpha[c]) j[c++] = 0;
-    if (c == Dim) break;
-    ++j[c];
-  }
-}
-
-template <int Dim>
-double RadialPowerDerivative<Dim>::operator()(const Point<Dim>& x, double r) const {
-  if (r == 0) return 0;  // every summand is of degree power - |alpha| > 0
-  double sum = 0;
-  for (const Summand& summand : summands_) {
-    double product = summand.coefficient;
-    for (int c = 0; c < Dim; ++c) {
-      for (int k = 0; k < summand.exponents[c]; ++k) product *= x[c];
-    }
-    for (int k = 0; k < summand.radial_power; ++k) product *= r;
-    for (int k = 0; k > summand.radial_power; --k) product /= r;
-    sum += product;
-  }
-  return sum;
-}
-
-template <int Dim>
 PolyharmonicFit<Dim>::PolyharmonicFit(int phs, int degree)
-    : phs_(phs), monomials_(Derivatives<Dim>::between_orders(0, degree)) {
+    : power_(RadialFunction::Form::odd_power, phs),
+      monomials_(Derivatives<Dim>::between_orders(0, degree)) {
   if (phs % 2 == 0) {
     throw UsageError(
         fmt::format("rbf_fd: phs={} must be odd: even powers of r are polynomials", phs));
@@ -91,7 +50,8 @@ LocalOutcome PolyharmonicFit<Dim>::factorise(const LocalStencil<Dim>& stencil,
   work.kernel.resize(static_cast<std::size_t>(n) * n);
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j <= i; ++j) {
-      const double phi = std::pow((stencil.node(i) - stencil.node(j)).norm(), phs_);
+      double phi = 0;
+      power_.evaluate((stencil.node(i) - stencil.node(j)).squaredNorm(), 0, 0, &phi);
       work.kernel[static_cast<std::size_t>(i) * n + j] = phi;
       work.kernel[static_cast<std::size_t>(j) * n + i] = phi;
     }
@@ -124,15 +84,22 @@ void PolyharmonicFit<Dim>::evaluate(const LocalStencil<Dim>& stencil, Workspace&
   if (!(work.prepared == derivatives)) {
     work.prepared = derivatives;
     work.radials.clear();
-    for (const MultiIndex<Dim>& alpha : derivatives) work.radials.emplace_back(phs_, alpha);
+    for (const MultiIndex<Dim>& alpha : derivatives) work.radials.emplace_back(alpha);
+  }
+  const int order = derivatives.highest_order();
+  work.powers.resize(static_cast<std::size_t>(n) * (order + 1));
+  for (int j = 0; j < n; ++j) {
+    power_.evaluate((offset - stencil.node(j)).squaredNorm(), 0, order,
+                    work.powers.data() + static_cast<std::ptrdiff_t>(j) * (order + 1));
   }
   for (int d = 0; d < derivatives.size(); ++d) {
     for (int a = 0; a < m; ++a) {
       work.constraint[a] = monomial_derivative<Dim>(monomials_[a], derivatives[d], offset);
     }
     for (int j = 0; j < n; ++j) {
-      const Point<Dim> x = offset - stencil.node(j);
-      work.radial[j] = work.radials[d](x, x.norm());
+      work.radial[j] =
+          work.radials[d](offset - stencil.node(j),
+                          work.powers.data() + static_cast<std::ptrdiff_t>(j) * (order + 1));
     }
     // w = Q [c1; c2] with R^T c1 = constraints and (Q2' Phi Q2) c2 = Q2' (radial - Phi Q1 c1).
     work.polynomials.solve_transposed_r(work.constraint);
@@ -158,7 +125,7 @@ Eigen::MatrixXd PolyharmonicFit<Dim>::local_matrix(const LocalStencil<Dim>& sten
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n + m, n + m);
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {
-      matrix(i, j) = std::pow((stencil.node(i) - stencil.node(j)).norm(), phs_);
+      power_.evaluate((stencil.node(i) - stencil.node(j)).squaredNorm(), 0, 0, &matrix(i, j));
     }
     for (int a = 0; a < m; ++a) {
       const double value =
@@ -174,10 +141,8 @@ Eigen::MatrixXd PolyharmonicFit<Dim>::local_matrix(const LocalStencil<Dim>& sten
 template <int Dim>
 std::string PolyharmonicFit<Dim>::unsupported(const Derivatives<Dim>& derivatives) const {
   for (const MultiIndex<Dim>& alpha : derivatives) {
-    if (order_of<Dim>(alpha) >= phs_) {
-      return fmt::format("r^{} is not smooth enough for {}; ask for a larger odd phs", phs_,
-                         name_of<Dim>(alpha));
-    }
+    const std::string rough = power_.unsupported(order_of<Dim>(alpha), name_of<Dim>(alpha));
+    if (!rough.empty()) return rough;
     if (order_of<Dim>(alpha) > monomials_.highest_order()) {
       return fmt::format("degree {} cannot give {} consistently; ask for degree={}",
                          monomials_.highest_order(), name_of<Dim>(alpha), order_of<Dim>(alpha));
@@ -186,9 +151,6 @@ std::string PolyharmonicFit<Dim>::unsupported(const Derivatives<Dim>& derivative
   return {};
 }
 
-template class RadialPowerDerivative<1>;
-template class RadialPowerDerivative<2>;
-template class RadialPowerDerivative<3>;
 template class PolyharmonicFit<1>;
 template class PolyharmonicFit<2>;
 template class PolyharmonicFit<3>;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -9,28 +8,10 @@
 #include "methods/core/derivatives.hpp"
 #include "methods/core/local_method.hpp"
 #include "methods/core/local_solvers.hpp"
+#include "methods/core/radial_derivative.hpp"
+#include "methods/core/radial_function.hpp"
 
 namespace strongpoint {
-
-/// A derivative of r^k as a sum of c * x^a * r^(k - 2q).
-/// Source: chain rule for f(s), s = |x|^2: d^n f/dx^n = sum_j n!/(j!(n-2j)!) (2x)^(n-2j)
-/// f^(n-j)(s), one such sum per coordinate.
-template <int Dim>
-class RadialPowerDerivative {
- public:
-  /// Derivative `alpha` of r^power; the power is odd and larger than the order of the derivative.
-  RadialPowerDerivative(int power, const MultiIndex<Dim>& alpha);
-  /// Value at x, whose length is r.
-  double operator()(const Point<Dim>& x, double r) const;
-
- private:
-  struct Summand {
-    double coefficient;
-    std::array<int, Dim> exponents;
-    int radial_power;
-  };
-  std::vector<Summand> summands_;
-};
 
 /// Local interpolation by polyharmonic splines r^phs with all polynomials up to a degree.
 /// The saddle-point system is solved in the null space of the polynomial constraints, where r^phs
@@ -43,10 +24,11 @@ class PolyharmonicFit {
     HouseholderQr polynomials;       ///< QR of the (n, m) polynomial matrix
     Ldlt definite;                   ///< projected r^phs, (n - m, n - m)
     std::vector<double> kernel;      ///< Q^T Phi Q, (n, n)
+    std::vector<double> powers;      ///< (order + 1, n) r^phs and its derivatives by r^2
     std::vector<double> radial;      ///< (n)
     std::vector<double> constraint;  ///< (m)
     Derivatives<Dim> prepared;       ///< the derivatives that `radials` belongs to
-    std::vector<RadialPowerDerivative<Dim>> radials;
+    std::vector<RadialDerivative<Dim>> radials;
   };
 
   /// Throws UsageError unless phs is odd and the degree is at least (phs - 1) / 2.
@@ -64,13 +46,10 @@ class PolyharmonicFit {
   std::string unsupported(const Derivatives<Dim>& derivatives) const;
 
  private:
-  int phs_;
+  RadialFunction power_;
   Derivatives<Dim> monomials_;
 };
 
-extern template class RadialPowerDerivative<1>;
-extern template class RadialPowerDerivative<2>;
-extern template class RadialPowerDerivative<3>;
 extern template class PolyharmonicFit<1>;
 extern template class PolyharmonicFit<2>;
 extern template class PolyharmonicFit<3>;
