@@ -5,6 +5,7 @@
 #include <concepts>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -17,7 +18,8 @@
 namespace strongpoint {
 
 /// What a kernel offers: factorise the local system of a stencil, then evaluate derivatives of the
-/// local approximation anywhere near it, all in scaled coordinates.
+/// local approximation anywhere near it, all in scaled coordinates. `evaluate` returns nothing, or
+/// a LocalOutcome where some points cannot be served.
 template <class Kernel, int Dim>
 concept LocalKernel = requires(const Kernel kernel, const LocalStencil<Dim>& stencil,
                                typename Kernel::Workspace& work, const Point<Dim>& offset,
@@ -112,7 +114,13 @@ const {
   for (int p = first_point; p < sites.point_count() && sites.point_anchor[p] == anchor; ++p) {
     const Point<Dim> offset = (sites.points.col(p) - sites.anchors.col(anchor)) / local.radius;
     Eigen::Map<Eigen::MatrixXd> row = weights.row(p);
-    kernel_.evaluate(local, work, offset, derivatives, row);
+    using Evaluated = decltype(kernel_.evaluate(local, work, offset, derivatives, row));
+    if constexpr (std::is_void_v<Evaluated>) {
+      kernel_.evaluate(local, work, offset, derivatives, row);
+    } else {
+      outcome = kernel_.evaluate(local, work, offset, derivatives, row);
+      if (outcome != LocalOutcome::ok) return outcome;
+    }
     for (int d = 0; d < derivatives.size(); ++d) {
       row.row(d) *= std::pow(local.radius, -order_of<Dim>(derivatives[d]));
     }

@@ -43,6 +43,11 @@ std::string explain(LocalOutcome outcome, int size, int needed) {
              "unknown";
     case LocalOutcome::not_finite:
       return "gives weights that are not finite; check the nodes and ask for a larger k";
+    case LocalOutcome::infeasible:
+      return fmt::format(
+          "of {} nodes allows no non-negative weights: a point lies outside their convex hull, or "
+          "they are too uneven for the second moments; ask for a larger k",
+          size);
     case LocalOutcome::ok:
       break;
   }

@@ -18,7 +18,8 @@ enum class LocalOutcome : std::uint8_t {
   singular,    ///< nodes in a special position: on a line, a cross, a conic
   coincident,  ///< two nodes at one place
   no_centre,   ///< the method needs a node at the anchor, as the first of the stencil
-  not_finite   ///< a weight came out as NaN or infinity
+  not_finite,  ///< a weight came out as NaN or infinity
+  infeasible   ///< no non-negative weights exist: the point lies outside the nodes' convex hull
 };
 
 /// One stencil in coordinates scaled by its radius, gathered once for a kernel.
