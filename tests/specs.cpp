@@ -88,7 +88,7 @@ TEST(Specs, EveryRegisteredThingDocumentsItselfAndItsOptions) {
   for (const auto& entry : weight_functions()) check(entry.info);
   for (const auto& entry : problems()) check(entry.info);
   for (const auto& entry : layouts()) check(entry.info);
-  for (const auto& info : forms()) check(info);
+  for (const auto& entry : forms()) check(entry.info);
   for (const auto& info : solvers()) check(info);
 }
 

@@ -143,9 +143,10 @@ class Lists(StudyTest):
         self.assertEqual(result.returncode, 0, result.stderr)
         words = set(re.findall(r"\w+", result.stdout))
         for path in ("methods/methods.def", "methods/rules/rules.def", "methods/weights/weights.def",
-                     "problems/problems.def", "problems/core/layouts/layouts.def"):
+                     "problems/problems.def", "problems/core/layouts/layouts.def",
+                     "problems/core/forms/forms.def"):
             self.assertEqual([n for n in names_in(path) if n not in words], [], path)
-        for name in ("collocation", "umfpack", "brute", "nanoflann"):
+        for name in ("umfpack", "brute", "nanoflann"):
             self.assertIn(name, words)
 
     def test_help_names_the_options_of_the_contract(self):

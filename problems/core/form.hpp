@@ -7,6 +7,7 @@
 
 #include "methods/core/method.hpp"
 #include "methods/core/options.hpp"
+#include "methods/core/registry.hpp"
 #include "problems/core/equation.hpp"
 #include "problems/core/problem.hpp"
 
@@ -35,8 +36,14 @@ class Form {
                                  const Derivatives<Dim>& derivatives) const = 0;
 };
 
-/// Names, summaries and options of all forms.
-const std::vector<EntryInfo>& forms();
+/// A registered form.
+struct FormEntry {
+  EntryInfo info;
+  Factory<Form> factory;
+};
+
+/// All registered forms, in the order of forms.def.
+const std::vector<FormEntry>& forms();
 
 /// Canonical form of a `--form` spec. Throws UsageError when it is malformed or unknown.
 std::string canonical_form(std::string_view spec);

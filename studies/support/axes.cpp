@@ -237,7 +237,7 @@ CommonAxes common_axes(const AxisTexts& texts) {
       axis_text("--cloud", texts.cloud, layouts(), registered_name),
       [&](const std::string& spec, AxisValue& value) { value.spec = seeded(spec, texts.seed); });
   axes.forms =
-      resolve(axis_text("--form", texts.form, forms(), listed_name),
+      resolve(axis_text("--form", texts.form, forms(), registered_name),
               [](const std::string& spec, AxisValue& value) { value.spec = canonical_form(spec); });
   axes.solvers = resolve(
       axis_text("--solver", texts.solver, solvers(), listed_name),

@@ -55,44 +55,21 @@ class Collocation final : public Form<Dim> {
   }
 };
 
-const EntryInfo& collocation_info() {
-  static const EntryInfo info{
-      "collocation",
-      "the equation at each node, boundary conditions at boundary nodes",
-      {{"boundary", "plain", "plain: the boundary condition replaces the equation at its node"},
-       {"symmetry", "rows", "rows: symmetry planes are written as boundary conditions"}}};
-  return info;
-}
-
-Options checked_options(std::string_view text) {
-  const Spec spec = parse_spec(text);
-  struct Known {
-    EntryInfo info;
-  };
-  const std::vector<Known> known{{collocation_info()}};
-  Options options(find_entry(known, "form", spec.name).info, spec);
-  options.choice<int>("boundary", {{"plain", 0}});
-  options.choice<int>("symmetry", {{"rows", 0}});
-  return options;
-}
-
 }  // namespace
 
-const std::vector<EntryInfo>& forms() {
-  static const std::vector<EntryInfo> entries{collocation_info()};
-  return entries;
+/// Registers `collocation`.
+FormEntry form_collocation() {
+  return {
+      {"collocation",
+       "the equation at each node, boundary conditions at boundary nodes",
+       {{"boundary", "plain", "plain: the boundary condition replaces the equation at its node"},
+        {"symmetry", "rows", "rows: symmetry planes are written as boundary conditions"}}},
+      in_every_dimension<Form>(
+          []<int Dim>(Dimension<Dim>, Options& options) -> std::unique_ptr<Form<Dim>> {
+            options.choice<int>("boundary", {{"plain", 0}});
+            options.choice<int>("symmetry", {{"rows", 0}});
+            return std::make_unique<Collocation<Dim>>();
+          })};
 }
-
-std::string canonical_form(std::string_view spec) { return checked_options(spec).canonical(); }
-
-template <int Dim>
-std::unique_ptr<Form<Dim>> make_form(std::string_view spec) {
-  checked_options(spec);
-  return std::make_unique<Collocation<Dim>>();
-}
-
-template std::unique_ptr<Form<1>> make_form<1>(std::string_view);
-template std::unique_ptr<Form<2>> make_form<2>(std::string_view);
-template std::unique_ptr<Form<3>> make_form<3>(std::string_view);
 
 }  // namespace strongpoint
