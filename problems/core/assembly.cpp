@@ -26,7 +26,11 @@ struct Workspace {
   int ordered_point = -1;                  ///< the point that `order` belongs to
   Eigen::MatrixXd coefficients;            ///< (fields, derivatives)
   std::vector<std::uint8_t> used;          ///< (fields) 1 where the row has a term
-  std::vector<std::pair<std::int64_t, double>> entries;  ///< of a row with several points
+  std::vector<std::int64_t> columns;       ///< of a row with several points, sorted
+  std::vector<double> sums;                ///< (unknowns) its entries, at their columns
+  std::vector<std::uint8_t> is_column;     ///< (unknowns) 1 at its columns
+
+  explicit Workspace(int unknowns) : sums(unknowns, 0.0), is_column(unknowns, 0) {}
 };
 
 /// True when all terms name one point, the case that assembles at full speed.
@@ -49,34 +53,32 @@ int mark_fields(Terms terms, int fields, std::vector<std::uint8_t>& used) {
   return static_cast<int>(std::count(used.begin(), used.end(), 1));
 }
 
-/// Adds the entries of all terms, whatever their points, sorted and summed by column.
+/// Sums the entries of all terms by column, whatever their points, in the order of the terms.
 void gather_entries(Terms terms, const Weights& weights, int fields, Workspace& work) {
-  work.entries.clear();
+  for (std::int64_t column : work.columns) {
+    work.sums[column] = 0;
+    work.is_column[column] = 0;
+  }
+  work.columns.clear();
+  const auto add = [&work](std::int64_t column, double value) {
+    if (work.is_column[column] == 0) work.columns.push_back(column);
+    work.is_column[column] = 1;
+    work.sums[column] += value;
+  };
   for (const Term& term : terms) {
     if (term.derivative == value_only) {
-      work.entries.emplace_back(static_cast<std::int64_t>(term.point) * fields + term.field,
-                                term.coefficient);
+      add(static_cast<std::int64_t>(term.point) * fields + term.field, term.coefficient);
       continue;
     }
     const std::span<const int> nodes = weights.nodes(term.point);
-    const Eigen::Map<const Eigen::MatrixXd> row = weights.row(term.point);
+    const double* values =
+        weights.values.data() + weights.offsets[term.point] * weights.per_entry + term.derivative;
     for (std::size_t j = 0; j < nodes.size(); ++j) {
-      work.entries.emplace_back(
-          static_cast<std::int64_t>(nodes[j]) * fields + term.field,
-          term.coefficient * row(term.derivative, static_cast<Eigen::Index>(j)));
+      add(static_cast<std::int64_t>(nodes[j]) * fields + term.field,
+          term.coefficient * values[j * weights.per_entry]);
     }
   }
-  std::stable_sort(work.entries.begin(), work.entries.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::size_t last = 0;
-  for (std::size_t i = 1; i < work.entries.size(); ++i) {
-    if (work.entries[i].first == work.entries[last].first) {
-      work.entries[last].second += work.entries[i].second;
-    } else {
-      work.entries[++last] = work.entries[i];
-    }
-  }
-  work.entries.resize(work.entries.empty() ? 0 : last + 1);
+  std::sort(work.columns.begin(), work.columns.end());
 }
 
 /// True when the row is derivatives of fields at one point, without bare values.
@@ -94,7 +96,7 @@ std::int64_t count_entries(Terms terms, const Weights& weights, int fields, Work
   }
   if (terms.size() == 1 && is_bare_value(terms)) return 1;
   gather_entries(terms, weights, fields, work);
-  return static_cast<std::int64_t>(work.entries.size());
+  return static_cast<std::int64_t>(work.columns.size());
 }
 
 /// Fills a compact row: for every stencil node the used fields, a product (fields x derivatives)
@@ -134,9 +136,9 @@ void fill_row(Terms terms, const Weights& weights, int fields, Workspace& work,
     return;
   }
   gather_entries(terms, weights, fields, work);
-  for (std::size_t i = 0; i < work.entries.size(); ++i) {
-    columns[i] = work.entries[i].first;
-    values[i] = work.entries[i].second;
+  for (std::size_t i = 0; i < work.columns.size(); ++i) {
+    columns[i] = work.columns[i];
+    values[i] = work.sums[work.columns[i]];
   }
 }
 
@@ -160,7 +162,7 @@ void for_each_row(int rows, const Work& work) {
   ParallelErrors errors;
 #pragma omp parallel
   {
-    Workspace workspace;
+    Workspace workspace(rows);  // as many rows as unknowns
 #pragma omp for schedule(static)
     for (int row = 0; row < rows; ++row) {
       errors.guard(row, [&] { work(row, workspace); });
