@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
   study.defaults.problem = "plate_hole";
   study.defaults.method = "zoned";
   study.timed = true;
+  study.mapped = true;
   study.quantities = [](const CaseKey& key, const Options&) { return steady_quantities(key); };
   study.run = [](const CaseKey& key, const RunOptions& options, const Options&) {
     return run_steady_case(key, options);

@@ -5,6 +5,7 @@
 #include "studies/support/run_case.hpp"
 #include "studies/support/seeds.hpp"
 #include "studies/support/study.hpp"
+#include "studies/support/vtk.hpp"
 
 namespace strongpoint {
 namespace {
@@ -62,6 +63,19 @@ Quantity zone_error(const std::string& name, const Eigen::VectorXd& computed,
   return {name, {}, "the exact derivative is zero: there is no relative error", {}};
 }
 
+/// Writes the size of each derivative's error at every node, and the zone (1 at the boundary).
+template <int Dim>
+void write_errors(const RunOptions& options, const CaseKey& key, const Discretisation<Dim>& scene,
+                  const Eigen::MatrixXd& errors) {
+  std::vector<NodeArray> arrays;
+  for (int d = 0; d < scene.derivatives.size(); ++d) {
+    const Eigen::VectorXd sizes = errors.row(d).cwiseAbs();
+    arrays.push_back({name_of<Dim>(scene.derivatives[d]) + "_error", {sizes.begin(), sizes.end()}});
+  }
+  arrays.push_back(zone_array(scene.sites.anchor_zone));
+  write_vtu<Dim>(*options.vtk, key, scene.cloud.nodes, arrays);
+}
+
 template <int Dim>
 CaseResult run(const FieldProblem<Dim>& problem, const CaseKey& key, const RunOptions& options) {
   CaseResult result;
@@ -70,11 +84,7 @@ CaseResult run(const FieldProblem<Dim>& problem, const CaseKey& key, const RunOp
   Discretisation<Dim> scene;
   scene.derivatives = judged(problem, *choices.method);
   scene.cloud = make_case_cloud<Dim>(problem.domain(), key, options);
-  scene.sites = sites_at_nodes<Dim>(scene.cloud.nodes);
-  scene.sites.block = scene.cloud.block;
-  for (int i = 0; i < scene.cloud.size(); ++i) {
-    if (scene.cloud.is_boundary(i)) scene.sites.anchor_zone[i] = Zone::boundary;
-  }
+  scene.sites = sites_of_cloud<Dim>(scene.cloud);
   compute_weights<Dim>(scene, problem.domain(), choices, options, clock, result.times);
 
   const Derivatives<Dim> value{MultiIndex<Dim>{}};
@@ -85,6 +95,7 @@ CaseResult run(const FieldProblem<Dim>& problem, const CaseKey& key, const RunOp
     exact.col(i) = problem.exact(scene.cloud.nodes.col(i), scene.derivatives);
   }
   const Eigen::MatrixXd computed = apply(scene.weights, values);
+  if (options.vtk) write_errors<Dim>(options, key, scene, computed - exact);
   for (const auto& [zone, suffix] : zones) {
     for (int d = 0; d < scene.derivatives.size(); ++d) {
       const std::string name = name_of<Dim>(scene.derivatives[d]) + "_" + suffix;
@@ -140,6 +151,7 @@ int main(int argc, char** argv) {
   study.defaults.method = "mfpm,gfdm,lsfdm,rbf_fd";
   study.defaults.cloud = "grid,perturbed,perturbed[amount=0.4],scattered,random";
   study.defaults.levels = "11,21,41,81";
+  study.mapped = true;
   study.quantities = quantities;
   study.extra_columns = {"seeds", "low", "high"};
   study.extra_options = {

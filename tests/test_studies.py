@@ -153,7 +153,7 @@ class Lists(StudyTest):
         for study in STUDIES:
             text = run(study, "--help").stdout
             for option in ("--problem", "--method", "--stencil", "--cloud", "--levels", "--form",
-                           "--solver", "--threads", "--repeat", "--seed", "--neighbours", "--csv",
+                           "--solver", "--threads", "--repeat", "--seed", "--neighbours", "--vtk", "--csv",
                            "--json", "--list", "--smoke", "--resume"):
                 self.assertIn(option, text, study)
 

@@ -54,7 +54,26 @@ std::string first_of(const std::string& axis) {
   return axis == "all" ? axis : split_specs(axis).front();
 }
 
-AxisTexts axis_texts(const Given& given, const AxisDefaults& defaults) {
+/// The stencil axis; none when each method is run with its own default.
+std::optional<std::string> stencil_text(const Given& given, const Study& study,
+                                        const Options& extra) {
+  if (!given.has("--stencil")) {
+    if (!study.default_stencils) return std::nullopt;
+    const std::string axis = study.default_stencils(extra);
+    return given.smoke ? first_of(axis) : axis;
+  }
+  for (const OptionDoc& option : study.extra_options) {
+    if (!study.default_stencils || !given.has("--" + option.key)) continue;
+    throw UsageError(fmt::format(
+        "--{} {}: shapes the rules that are compared when --stencil is not given; write it into "
+        "the specs of --stencil instead",
+        option.key, given.values.at("--" + option.key)));
+  }
+  return given.values.at("--stencil");
+}
+
+AxisTexts axis_texts(const Given& given, const Study& study, const Options& extra) {
+  const AxisDefaults& defaults = study.defaults;
   const auto axis = [&](const char* option, const std::string& otherwise) {
     return given.value(option, given.smoke ? first_of(otherwise) : otherwise);
   };
@@ -66,7 +85,7 @@ AxisTexts axis_texts(const Given& given, const AxisDefaults& defaults) {
   texts.form = axis("--form", defaults.form);
   texts.solver = axis("--solver", defaults.solver);
   texts.levels = given.value("--levels", given.smoke ? defaults.smoke_levels : defaults.levels);
-  if (given.has("--stencil")) texts.stencil = given.values.at("--stencil");
+  texts.stencil = stencil_text(given, study, extra);
   return texts;
 }
 
@@ -100,6 +119,9 @@ std::vector<OptionHelp> option_helps(const Study& study) {
       {"--seed", "N", "seed of clouds whose spec gives none; default 1"},
       {"--neighbours", "NAME",
        fmt::format("search engine: {}; default auto", fmt::join(search_engines(), ", "))},
+      {"--vtk", "DIR",
+       study.mapped ? "write the nodes with their numbers, a .vtu file a case, for ParaView"
+                    : "refused: this study has no numbers per node"},
       {"--csv", "FILE", "write the tidy table; - is standard output"},
       {"--json", "FILE", "write the table with its provenance; - is standard output"},
       {"--resume", "FILE", "keep the finished cases of this table, run the rest"}};
@@ -169,6 +191,17 @@ void check_files(const CommandLine& line) {
   }
 }
 
+std::optional<VtkOutput> vtk_output(const Given& given, const Study& study) {
+  if (!given.has("--vtk")) return std::nullopt;
+  const std::string& directory = given.values.at("--vtk");
+  if (!study.mapped) {
+    throw UsageError(
+        fmt::format("--vtk {}: {} has no numbers per node to write; leave the option out",
+                    directory, study.name));
+  }
+  return VtkOutput{directory, study.name};
+}
+
 CommandLine plain_text(CommandLine::Action action, std::string text, const Study& study) {
   return {action, std::move(text), {}, {}, extra_options({}, study), "", true, "", ""};
 }
@@ -186,14 +219,16 @@ CommandLine parse_command_line(int argc, const char* const* argv, const Study& s
     return plain_text(CommandLine::Action::print, std::string(success.what()) + "\n", study);
   }
   if (given.list) return plain_text(CommandLine::Action::list, "", study);
+  Options extra = extra_options(given, study);
   CommandLine line{
       CommandLine::Action::run,
       "",
-      axis_texts(given, study.defaults),
+      axis_texts(given, study, extra),
       {engine(given), number(given, "--threads", 1, 1, 1024),
        number(given, "--repeat", 1, 1, 10'000),
-       number<std::uint64_t>(given, "--seed", 1, 0, std::numeric_limits<std::int32_t>::max())},
-      extra_options(given, study),
+       number<std::uint64_t>(given, "--seed", 1, 0, std::numeric_limits<std::int32_t>::max()),
+       vtk_output(given, study)},
+      std::move(extra),
       given.value("--csv", given.value("--resume", "")),
       !given.has("--csv"),
       given.value("--json", ""),

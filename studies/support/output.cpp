@@ -105,6 +105,16 @@ void check_writable(std::string_view option, const std::string& path) {
   }
 }
 
+void make_directory(std::string_view option, const std::string& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (!error && !fs::is_directory(path)) error = std::make_error_code(std::errc::not_a_directory);
+  if (!error && ::access(path.c_str(), W_OK) != 0) error = {errno, std::generic_category()};
+  if (!error) return;
+  throw UsageError(fmt::format("{} {}: is no directory that can be written ({}); name one that can",
+                               option, path, error.message()));
+}
+
 void write_whole(const std::string& path, std::string_view text) {
   if (is_stream(path)) {
     append_to(path, text);

@@ -22,6 +22,10 @@ bool is_stream(const std::string& path);
 /// `-` is standard output and always passes.
 void check_writable(std::string_view option, const std::string& path);
 
+/// Makes a directory, with those above it, unless it exists. Throws UsageError, naming the option,
+/// unless files can be written there.
+void make_directory(std::string_view option, const std::string& path);
+
 /// Writes a whole file: to a temporary file beside it that is then renamed, so that at no time a
 /// part of it can be seen or what was there before is lost. Devices and pipes are written in place;
 /// `-` is standard output. Throws WriteError.

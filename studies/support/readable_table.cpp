@@ -11,10 +11,10 @@
 namespace strongpoint {
 namespace {
 
-constexpr std::size_t levels_abreast = 5;  ///< what fits into `line_width` columns
 constexpr std::size_t line_width = 110;
-constexpr int label_width = 22;
-constexpr int cell_width = 16;
+constexpr std::size_t margin = 2;
+constexpr std::size_t least_label_width = 22;
+constexpr std::size_t cell_width = 16;
 
 /// The cases of one method and stencil on one problem, cloud, form and solver, by level.
 using Block = std::vector<const std::vector<Row>*>;
@@ -101,14 +101,14 @@ std::string cell(const Row* row) {
                      row->rate ? fmt::format("{:.2f}", *row->rate) : "");
 }
 
-/// The part of a block that stands side by side.
+/// The part of a block that stands side by side, behind labels of one width.
 struct Span {
-  std::size_t first, last;
+  std::size_t first, last, label_width;
 };
 
 template <class Text>
 std::string table_line(const std::string& label, Span span, Text&& text_of_level) {
-  std::string line = fmt::format("  {:<{}}", label, label_width);
+  std::string line = fmt::format("{:{}}{:<{}}", "", margin, label, span.label_width);
   for (std::size_t i = span.first; i < span.last; ++i) {
     line += fmt::format("{:>{}}", text_of_level(i), cell_width);
   }
@@ -195,8 +195,12 @@ std::string block_text(const Block& block, const Study& study) {
                        [](const Row& row) { return row.status == Status::ok; });
   });
   const std::vector<Line> lines = any ? lines_of(block) : std::vector<Line>();
-  for (std::size_t first = 0; any && first < block.size(); first += levels_abreast) {
-    const Span span{first, std::min(first + levels_abreast, block.size())};
+  std::size_t label_width = least_label_width;
+  for (const Line& line : lines) label_width = std::max(label_width, line.label.size());
+  const std::size_t taken = std::min(margin + label_width, line_width - cell_width);
+  const std::size_t abreast = (line_width - taken) / cell_width;
+  for (std::size_t first = 0; any && first < block.size(); first += abreast) {
+    const Span span{first, std::min(first + abreast, block.size()), label_width};
     text += head_lines(block, span, study);
     for (const Line& line : lines) {
       std::string row =

@@ -9,6 +9,7 @@
 #include "problems/core/assembly.hpp"
 #include "problems/core/layout.hpp"
 #include "problems/core/voronoi.hpp"
+#include "studies/support/vtk.hpp"
 
 extern "C" {
 /// Present when UMFPACK's BLAS is OpenBLAS.
@@ -60,6 +61,25 @@ Eigen::MatrixXd nodal_values(const Discretisation<Dim>& scene, const Eigen::Matr
   return result;
 }
 
+/// Writes what was computed at the nodes: the fields, the size of each stencil that the equations
+/// read, the zone (1 at the boundary).
+template <int Dim>
+void write_fields(const RunOptions& options, const CaseKey& key, const Discretisation<Dim>& scene,
+                  const std::vector<std::string>& names, const Eigen::MatrixXd& values) {
+  std::vector<NodeArray> arrays;
+  for (std::size_t f = 0; f < names.size(); ++f) {
+    const Eigen::VectorXd field = values.row(static_cast<Eigen::Index>(f));
+    arrays.push_back({names[f], {field.begin(), field.end()}});
+  }
+  NodeArray sizes{"stencil_size", {}};
+  for (int i = 0; i < scene.weights.size(); ++i) {
+    sizes.values.push_back(static_cast<double>(scene.weights.nodes(i).size()));
+  }
+  arrays.push_back(std::move(sizes));
+  arrays.push_back(zone_array(scene.sites.anchor_zone));
+  write_vtu<Dim>(*options.vtk, key, scene.cloud.nodes, arrays);
+}
+
 template <int Dim>
 CaseResult run_once(const SteadyProblem<Dim>& problem, const CaseKey& key,
                     const RunOptions& options) {
@@ -83,6 +103,7 @@ CaseResult run_once(const SteadyProblem<Dim>& problem, const CaseKey& key,
       Eigen::Map<const Eigen::MatrixXd>(linear.x.data(), field_count, scene.cloud.size());
   const Solution<Dim> solution{scene.cloud, nodal_values(scene, parameters), parameters,
                                scene.weights, scene.derivatives};
+  if (options.vtk) write_fields<Dim>(options, key, scene, fields, solution.fields);
   const std::vector<std::string> names = problem.quantities();
   const std::vector<double> values = problem.measure(solution);
   for (std::size_t q = 0; q < names.size(); ++q)
@@ -96,13 +117,23 @@ CaseResult run_once(const SteadyProblem<Dim>& problem, const CaseKey& key,
 }  // namespace
 
 template <int Dim>
+Sites<Dim> sites_of_cloud(const PointCloud<Dim>& cloud) {
+  Sites<Dim> sites = sites_at_nodes<Dim>(cloud.nodes);
+  sites.block = cloud.block;
+  for (int i = 0; i < cloud.size(); ++i) {
+    if (cloud.is_boundary(i)) sites.anchor_zone[i] = Zone::boundary;
+  }
+  return sites;
+}
+
+template <int Dim>
 PointCloud<Dim> make_case_cloud(const Domain<Dim>& domain, const CaseKey& key,
                                 const RunOptions& options) {
   return make_cloud<Dim>(domain, key.cloud, LayoutRequest{key.level, options.seed});
 }
 
 template <int Dim>
-void compute_weights(Discretisation<Dim>& scene, const Domain<Dim>& domain,
+void choose_stencils(Discretisation<Dim>& scene, const Domain<Dim>& domain,
                      const Choices<Dim>& choices, const RunOptions& options,
                      const StageClock& clock, StageTimes& times) {
   if (const std::string why = choices.method->unsupported(scene.derivatives); !why.empty()) {
@@ -135,6 +166,13 @@ void compute_weights(Discretisation<Dim>& scene, const Domain<Dim>& domain,
     times.neighbours += searching;
     times.stencils += selecting - searching;
   }
+}
+
+template <int Dim>
+void compute_weights(Discretisation<Dim>& scene, const Domain<Dim>& domain,
+                     const Choices<Dim>& choices, const RunOptions& options,
+                     const StageClock& clock, StageTimes& times) {
+  choose_stencils<Dim>(scene, domain, choices, options, clock, times);
   scene.weights = clock.time(times.weights, [&] {
     return choices.method->weights(scene.sites, scene.stencils, scene.derivatives);
   });
@@ -142,7 +180,7 @@ void compute_weights(Discretisation<Dim>& scene, const Domain<Dim>& domain,
 
 template <int Dim>
 Discretisation<Dim> discretise(const SteadyProblem<Dim>& problem, const CaseKey& key,
-                               const RunOptions& options, StageTimes& times) {
+                               const RunOptions& options, StageTimes& times, Upto upto) {
   set_threads(options);
   const StageClock clock(options.threads);
   const Choices<Dim> choices(key);
@@ -156,7 +194,8 @@ Discretisation<Dim> discretise(const SteadyProblem<Dim>& problem, const CaseKey&
     scene.derivatives.merge(problem.measured_derivatives());
     scene.sites = form->sites(problem, scene.cloud, *choices.method);
   });
-  compute_weights<Dim>(scene, problem.domain(), choices, options, clock, times);
+  const auto& advance = upto == Upto::weights ? compute_weights<Dim> : choose_stencils<Dim>;
+  advance(scene, problem.domain(), choices, options, clock, times);
   return scene;
 }
 
@@ -169,8 +208,10 @@ CaseResult run_steady_case(const CaseKey& key, const RunOptions& options) {
   return with_problem<SteadyProblem>(
       key.problem, "steady", [&]<int Dim>(const SteadyProblem<Dim>& problem) {
         CaseResult result = run_once<Dim>(problem, key, options);
+        RunOptions again = options;
+        again.vtk.reset();
         for (int run = 1; run < options.repeat; ++run) {
-          result.times = fastest(result.times, run_once<Dim>(problem, key, options).times);
+          result.times = fastest(result.times, run_once<Dim>(problem, key, again).times);
         }
         return result;
       });
@@ -192,6 +233,15 @@ StageTimes fastest(const StageTimes& a, const StageTimes& b) {
 template PointCloud<1> make_case_cloud(const Domain<1>&, const CaseKey&, const RunOptions&);
 template PointCloud<2> make_case_cloud(const Domain<2>&, const CaseKey&, const RunOptions&);
 template PointCloud<3> make_case_cloud(const Domain<3>&, const CaseKey&, const RunOptions&);
+template Sites<1> sites_of_cloud(const PointCloud<1>&);
+template Sites<2> sites_of_cloud(const PointCloud<2>&);
+template Sites<3> sites_of_cloud(const PointCloud<3>&);
+template void choose_stencils(Discretisation<1>&, const Domain<1>&, const Choices<1>&,
+                              const RunOptions&, const StageClock&, StageTimes&);
+template void choose_stencils(Discretisation<2>&, const Domain<2>&, const Choices<2>&,
+                              const RunOptions&, const StageClock&, StageTimes&);
+template void choose_stencils(Discretisation<3>&, const Domain<3>&, const Choices<3>&,
+                              const RunOptions&, const StageClock&, StageTimes&);
 template void compute_weights(Discretisation<1>&, const Domain<1>&, const Choices<1>&,
                               const RunOptions&, const StageClock&, StageTimes&);
 template void compute_weights(Discretisation<2>&, const Domain<2>&, const Choices<2>&,
@@ -199,10 +249,10 @@ template void compute_weights(Discretisation<2>&, const Domain<2>&, const Choice
 template void compute_weights(Discretisation<3>&, const Domain<3>&, const Choices<3>&,
                               const RunOptions&, const StageClock&, StageTimes&);
 template Discretisation<1> discretise(const SteadyProblem<1>&, const CaseKey&, const RunOptions&,
-                                      StageTimes&);
+                                      StageTimes&, Upto);
 template Discretisation<2> discretise(const SteadyProblem<2>&, const CaseKey&, const RunOptions&,
-                                      StageTimes&);
+                                      StageTimes&, Upto);
 template Discretisation<3> discretise(const SteadyProblem<3>&, const CaseKey&, const RunOptions&,
-                                      StageTimes&);
+                                      StageTimes&, Upto);
 
 }  // namespace strongpoint

@@ -34,18 +34,31 @@ struct Choices {
         rule(key.stencil == every_node ? nullptr : make_rule<Dim>(key.stencil).made) {}
 };
 
-/// Chooses stencils and computes weights on sites already made, adding only what the method needs;
-/// the time of each stage is added to `times`. Throws SkipCase when the method cannot give the
-/// derivatives.
+/// The sites of a cloud with a stencil at every node, whatever a problem reads there.
+template <int Dim>
+Sites<Dim> sites_of_cloud(const PointCloud<Dim>& cloud);
+
+/// Chooses stencils on sites already made, adding to these only what the method needs; the time of
+/// each stage is added to `times`. Throws SkipCase when the method cannot give the derivatives.
+template <int Dim>
+void choose_stencils(Discretisation<Dim>& scene, const Domain<Dim>& domain,
+                     const Choices<Dim>& choices, const RunOptions& options,
+                     const StageClock& clock, StageTimes& times);
+
+/// Chooses stencils, as above, and computes weights.
 template <int Dim>
 void compute_weights(Discretisation<Dim>& scene, const Domain<Dim>& domain,
                      const Choices<Dim>& choices, const RunOptions& options,
                      const StageClock& clock, StageTimes& times);
 
-/// Discretises a steady problem up to the weights. Throws SkipCase and CaseError.
+/// How far a problem is discretised.
+enum class Upto { stencils, weights };
+
+/// Discretises a steady problem. Throws SkipCase and CaseError.
 template <int Dim>
 Discretisation<Dim> discretise(const SteadyProblem<Dim>& problem, const CaseKey& key,
-                               const RunOptions& options, StageTimes& times);
+                               const RunOptions& options, StageTimes& times,
+                               Upto upto = Upto::weights);
 
 /// Makes the cloud of a case.
 template <int Dim>
@@ -56,6 +69,7 @@ PointCloud<Dim> make_case_cloud(const Domain<Dim>& domain, const CaseKey& key,
 std::vector<std::string> steady_quantities(const CaseKey& key);
 
 /// Runs a steady case from cloud to measured quantities; the times are minima over `repeat` runs.
+/// With `options.vtk` the fields at the nodes are written.
 /// Throws SkipCase and CaseError.
 CaseResult run_steady_case(const CaseKey& key, const RunOptions& options);
 

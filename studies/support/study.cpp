@@ -91,6 +91,7 @@ void GridRun::start() {
   for (const auto& [option, path] : {std::pair{"--csv", line_.csv}, {"--json", line_.json}}) {
     if (!path.empty()) check_writable(option, path);
   }
+  if (line_.run.vtk) make_directory("--vtk", line_.run.vtk->directory);
   Resumed resumed;
   resumed.cases.resize(plan_.size());
   if (!line_.resume.empty()) {

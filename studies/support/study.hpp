@@ -18,12 +18,19 @@ struct CaseKey {
   bool operator==(const CaseKey&) const = default;
 };
 
+/// Where the cases of a study write their nodes with numbers for ParaView.
+struct VtkOutput {
+  std::string directory;  ///< exists
+  std::string study;
+};
+
 /// How cases are run, the same for every case of a table.
 struct RunOptions {
   std::string neighbours = "auto";
   int threads = 1;
   int repeat = 1;          ///< timed stages take the minimum over this many runs
   std::uint64_t seed = 1;  ///< for clouds whose spec gives none
+  std::optional<VtkOutput> vtk;
 };
 
 /// One number of a case. A bad numerical outcome is a value, or no value with a reason; it is not a
@@ -70,8 +77,12 @@ struct Study {
   AxisDefaults defaults;
   bool timed = false;                      ///< adds the timing columns
   bool rated = true;                       ///< fills `rate` from level to level
+  bool mapped = false;                     ///< its cases write files for `--vtk`
   std::vector<std::string> extra_columns;  ///< appended after the contract's columns
   std::vector<OptionDoc> extra_options;    ///< `--key VALUE` options of this study
+  /// The stencil axis when `--stencil` is not given, in specs made from the study's own options,
+  /// which are all refused beside `--stencil`. Without it every method is run with its default.
+  std::function<std::string(const Options& extra)> default_stencils;
   /// Names of the quantities a case gives, for rows of failed and skipped cases and to tell whether
   /// a case in a resumed file is complete. May throw SkipCase.
   std::function<std::vector<std::string>(const CaseKey&, const Options& extra)> quantities;
