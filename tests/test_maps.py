@@ -1,16 +1,18 @@
 #!/usr/bin/python3
-"""Maps: what --vtk writes.
+"""Maps: what --vtk writes, and what results/plot draws of it.
 
 Usage: test_maps.py [BUILD_DIRECTORY]; without it the variable STRONGPOINT_BUILD names it.
 """
 import base64
 import math
+import re
 import struct
+import subprocess
 import sys
 import unittest
 import xml.etree.ElementTree as ElementTree
 
-from study_programs import QUICK, StudyTest, rows_of, run
+from study_programs import QUICK, ROOT, StudyTest, rows_of, run
 
 FORMATS = {"Float64": ("d", 8), "Int64": ("q", 8), "UInt8": ("B", 1)}
 GRID = ["--problem", "field", "--method", "mfpm", "--stencil", "nearest[k=9]", "--cloud", "grid", "--levels",
@@ -24,6 +26,11 @@ def numbers(element):
     (count,) = struct.unpack_from("<Q", raw)
     assert count == len(raw) - 8 and element.get("format") == "binary"
     return struct.unpack(f"<{count // size}{letter}", raw[8:])
+
+
+def plot(*arguments):
+    return subprocess.run([str(ROOT / "results" / "plot"), *map(str, arguments)], capture_output=True,
+                          text=True, check=False)
 
 
 class MapTest(StudyTest):
@@ -115,6 +122,46 @@ class Files(MapTest):
         self.table.write_text("a file", encoding="utf-8")
         self.assert_refused([*QUICK, "--vtk", self.table], "--vtk", str(self.table))
         self.assert_refused(["--smoke", "--vtk", self.directory], "--vtk", "timing", study="timing")
+
+
+class Pictures(MapTest):
+    def test_a_map_gives_a_picture_an_array(self):
+        ((path, _),) = self.maps("conditioning", *GRID).items()
+        result = plot(path, "-o", self.directory / "png")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        pictures = list((self.directory / "png").iterdir())
+        self.assertEqual(len(pictures), 8)
+        for picture in pictures:
+            self.assertTrue(picture.read_bytes().startswith(b"\x89PNG"))
+            self.assertRegex(picture.name, "^" + re.escape(path.stem) + r"_\w+\.png$")
+
+    def test_several_files_are_drawn_by_one_command(self):
+        files = self.maps("conditioning", *GRID[:-1], "5,7")
+        result = plot(*files, "-o", self.directory / "png", "--array", "zone", "--array", "residual")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(len(set(result.stdout.split())), 4)
+
+    def test_only_the_array_asked_for_is_drawn_whatever_the_dimension_and_the_gaps(self):
+        singular = "nearest[k=2,ties=cut]"
+        for dim, stencil in ((1, "nearest"), (1, singular), (2, singular), (3, "nearest")):
+            files = self.maps("conditioning", "--problem", f"field[dim={dim}]", "--method", "mfpm",
+                              "--stencil", stencil, "--cloud", "grid", "--levels", "5")
+            for path in files:
+                result = plot(path, "-o", self.directory / "png", "--array", "condition_two")
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertEqual(len(result.stdout.split()), 1)
+
+    def test_bad_requests_are_refused_in_one_line(self):
+        ((path, _),) = self.maps("conditioning", *GRID).items()
+        broken = self.directory / "broken.vtu"
+        broken.write_text("<VTKFile", encoding="utf-8")
+        for arguments, word in (((path, "--array", "colour"), "condition_two"),
+                                ((path, "--quantity", "u_error"), "--quantity"),
+                                ((broken,), "broken.vtu"), ((self.directory / "none.vtu",), "No such file")):
+            result = plot(*arguments)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+            self.assertIn(word, result.stderr)
 
 
 if __name__ == "__main__":
