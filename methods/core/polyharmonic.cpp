@@ -141,7 +141,7 @@ Eigen::MatrixXd PolyharmonicFit<Dim>::local_matrix(const LocalStencil<Dim>& sten
 template <int Dim>
 std::string PolyharmonicFit<Dim>::unsupported(const Derivatives<Dim>& derivatives) const {
   for (const MultiIndex<Dim>& alpha : derivatives) {
-    const std::string rough = power_.unsupported(order_of<Dim>(alpha), name_of<Dim>(alpha));
+    std::string rough = power_.unsupported(order_of<Dim>(alpha), name_of<Dim>(alpha));
     if (!rough.empty()) return rough;
     if (order_of<Dim>(alpha) > monomials_.highest_order()) {
       return fmt::format("degree {} cannot give {} consistently; ask for degree={}",
