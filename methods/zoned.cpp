@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 
@@ -8,8 +7,6 @@
 
 namespace strongpoint {
 namespace {
-
-constexpr std::array zones{Zone::interior, Zone::boundary};
 
 template <int Dim>
 class Zoned final : public Method<Dim> {
@@ -43,33 +40,17 @@ class Zoned final : public Method<Dim> {
 
   Weights weights(const Sites<Dim>& sites, const Stencils& stencils,
                   const Derivatives<Dim>& derivatives) const override {
-    Weights all;
-    all.per_entry = derivatives.size();
-    std::array<Weights, 2> parts;
-    for (std::size_t zone = 0; zone < zones.size(); ++zone) {
-      parts[zone] = in_zone(zones[zone])
-                        .weights(sites, stencils_of(sites, stencils, zones[zone]), derivatives);
-    }
-    all.offsets.reserve(sites.point_anchor.size() + 1);
-    all.columns.reserve(parts[0].columns.size() + parts[1].columns.size());
-    all.values.reserve(parts[0].values.size() + parts[1].values.size());
-    for (int p = 0; p < sites.point_count(); ++p) {
-      for (const Weights& part : parts) {  // a row is empty in all zones but its own
-        const std::span<const int> nodes = part.nodes(p);
-        const double* values = part.row(p).data();
-        all.columns.insert(all.columns.end(), nodes.begin(), nodes.end());
-        all.values.insert(all.values.end(), values, values + part.row(p).size());
-      }
-      all.offsets.push_back(static_cast<std::int64_t>(all.columns.size()));
-    }
-    return all;
+    const auto part = [&](Zone zone) {
+      return in_zone(zone).weights(sites, stencils_of(sites, stencils, zone), derivatives);
+    };
+    return joined_rows(part(Zone::interior), part(Zone::boundary));
   }
 
   std::vector<double> condition(const Sites<Dim>& sites, std::span<const int> anchors,
                                 const Stencils& stencils, Scaling scaling,
                                 ConditionNorm norm) const override {
     std::vector<double> result(anchors.size());
-    for (const Zone zone : zones) {
+    for (const Zone zone : {Zone::interior, Zone::boundary}) {
       std::vector<int> chosen;
       Stencils chosen_stencils;
       std::vector<std::size_t> places;

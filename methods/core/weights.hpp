@@ -33,4 +33,23 @@ struct Weights {
   }
 };
 
+/// The rows of two sets of weights for the same points and derivatives, where a row is empty in one
+/// of them at least.
+inline Weights joined_rows(const Weights& a, const Weights& b) {
+  Weights all;
+  all.per_entry = a.per_entry;
+  all.offsets.reserve(a.offsets.size());
+  all.columns.reserve(a.columns.size() + b.columns.size());
+  all.values.reserve(a.values.size() + b.values.size());
+  for (int p = 0; p < a.size(); ++p) {
+    const Weights& part = a.nodes(p).empty() ? b : a;
+    const std::span<const int> nodes = part.nodes(p);
+    const double* values = part.row(p).data();
+    all.columns.insert(all.columns.end(), nodes.begin(), nodes.end());
+    all.values.insert(all.values.end(), values, values + part.row(p).size());
+    all.offsets.push_back(static_cast<std::int64_t>(all.columns.size()));
+  }
+  return all;
+}
+
 }  // namespace strongpoint
