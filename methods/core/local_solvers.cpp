@@ -99,6 +99,7 @@ double* Lu::prepare(int n) {
   n_ = n;
   a_.resize(static_cast<std::size_t>(n) * n);
   largest_.resize(n);
+  scale_.resize(n);
   exchanged_.resize(n);
   return a_.data();
 }
@@ -106,16 +107,24 @@ double* Lu::prepare(int n) {
 bool Lu::factorise(double tolerance) {
   std::fill(largest_.begin(), largest_.end(), 0.0);
   for (int i = 0; i < n_; ++i) {
-    for (int j = 0; j < n_; ++j) largest_[j] = std::max(largest_[j], std::abs(at(i, j)));
+    double largest = 0;
+    for (int j = 0; j < n_; ++j) largest = std::max(largest, std::abs(at(i, j)));
+    if (!(largest > 0)) return false;
+    scale_[i] = 1 / largest;
+    for (int j = 0; j < n_; ++j)
+      largest_[j] = std::max(largest_[j], scale_[i] * std::abs(at(i, j)));
   }
   for (int k = 0; k < n_; ++k) {
     int pivot = k;
     for (int i = k + 1; i < n_; ++i) {
-      if (std::abs(at(i, k)) > std::abs(at(pivot, k))) pivot = i;
+      if (scale_[i] * std::abs(at(i, k)) > scale_[pivot] * std::abs(at(pivot, k))) pivot = i;
     }
-    if (!(std::abs(at(pivot, k)) > tolerance * largest_[k])) return false;
+    if (!(scale_[pivot] * std::abs(at(pivot, k)) > tolerance * largest_[k])) return false;
     exchanged_[k] = pivot;
-    if (pivot != k) std::swap_ranges(&at(k, 0), &at(k, 0) + n_, &at(pivot, 0));
+    if (pivot != k) {
+      std::swap_ranges(&at(k, 0), &at(k, 0) + n_, &at(pivot, 0));
+      std::swap(scale_[k], scale_[pivot]);
+    }
     for (int i = k + 1; i < n_; ++i) {
       if (at(i, k) == 0) continue;
       const double factor = at(i, k) / at(k, k);

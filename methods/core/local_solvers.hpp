@@ -46,14 +46,15 @@ class Ldlt {
   std::vector<double> a_;
 };
 
-/// LU of a small square matrix with row exchanges and reused storage. Exact zeros stay zeros: a
-/// triangular or block triangular matrix is solved without fill.
+/// LU of a small square matrix with row exchanges and reused storage; rows are judged relative to
+/// their largest entries. Exact zeros stay zeros: a triangular or block triangular matrix is solved
+/// without fill.
 class Lu {
  public:
   /// Storage for an (n, n) matrix, row after row, to be filled by the caller.
   double* prepare(int n);
   /// Factorises in place. False when what is left of some column is below `tolerance` times the
-  /// largest entry that the column had.
+  /// largest entry that the column had, both relative to their rows.
   bool factorise(double tolerance);
   /// Solves A x = b, b (n) becoming x.
   void solve(std::span<double> b) const;
@@ -63,7 +64,8 @@ class Lu {
  private:
   int n_ = 0;
   std::vector<double> a_;        ///< U, and the multipliers of L below its diagonal
-  std::vector<double> largest_;  ///< of each column, before the elimination
+  std::vector<double> largest_;  ///< of each column, before the elimination and relative to rows
+  std::vector<double> scale_;    ///< 1 / largest entry of each row, before the elimination
   std::vector<int> exchanged_;   ///< row exchanged with row k at step k
 
   double& at(int i, int j) { return a_[static_cast<std::size_t>(i) * n_ + j]; }
