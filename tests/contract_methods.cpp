@@ -1,5 +1,6 @@
 // What every registered method declares of itself is checked here, and nothing else.
 #include <algorithm>
+#include <map>
 
 #include <gtest/gtest.h>
 #include <omp.h>
@@ -228,6 +229,18 @@ TEST(ContractMethods, AreInvariantUnderPermutationOfTheNodes) {
   }
 }
 
+/// Weights of one derivative at one point, by node id. A method may leave out nodes whose weights
+/// are zero for all derivatives asked for, so that rows differ in their nodes and not in what they
+/// say.
+std::map<int, double> weights_by_node(const Weights& weights, int point, int derivative) {
+  std::map<int, double> result;
+  for (std::size_t j = 0; j < weights.nodes(point).size(); ++j) {
+    const double weight = weights.row(point)(derivative, static_cast<Eigen::Index>(j));
+    if (weight != 0) result[weights.nodes(point)[j]] = weight;
+  }
+  return result;
+}
+
 TEST(ContractMethods, GiveTheSameWeightsWhenFewerDerivativesAreAskedFor) {
   for (const std::string& spec : method_specs(4)) {
     const TestScene<2> scene = make_scene<2>(spec, "perturbed", 12, 5);
@@ -236,7 +249,8 @@ TEST(ContractMethods, GiveTheSameWeightsWhenFewerDerivativesAreAskedFor) {
     for (int d = 0; d < all.size(); ++d) {
       const Weights one = scene.method->weights(scene.sites, scene.stencils, {all[d]});
       for (int p = 0; p < full.size(); ++p) {
-        EXPECT_EQ(full.row(p).row(d), one.row(p).row(0)) << spec << ' ' << name_of<2>(all[d]);
+        EXPECT_EQ(weights_by_node(full, p, d), weights_by_node(one, p, 0))
+            << spec << ' ' << name_of<2>(all[d]);
       }
     }
   }

@@ -76,6 +76,9 @@ class LocalMethod : public Method<Dim> {
     if (traits_.needs.spacing && sites.spacing.size() != sites.anchor_count()) {
       throw CaseError(traits_.name + ": the local spacing is needed but the sites hold none");
     }
+    if (traits_.needs.block && !sites.block) {
+      throw CaseError(traits_.name + ": an index block is needed but the sites hold none");
+    }
   }
   /// Writes the weights of all points of one anchor.
   LocalOutcome fill(const Sites<Dim>& sites, const Stencils& stencils, int anchor, int first_point,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -41,6 +42,11 @@ std::string explain(LocalOutcome outcome, int size, int needed) {
     case LocalOutcome::no_centre:
       return "has no node at its anchor, which this method needs; use a method whose value is "
              "unknown";
+    case LocalOutcome::no_block:
+      return fmt::format(
+          "of {} nodes is no index block of at least {}; ask for the rule block with a larger "
+          "width, or for a finer cloud",
+          size, needed);
     case LocalOutcome::not_finite:
       return "gives weights that are not finite; check the nodes and ask for a larger k";
     case LocalOutcome::infeasible:
@@ -59,6 +65,8 @@ std::string explain(LocalOutcome outcome, int size, int needed) {
 template <int Dim>
 LocalOutcome LocalStencil<Dim>::gather(const Sites<Dim>& sites, std::span<const int> nodes,
                                        int anchor) {
+  ids = nodes;
+  block = sites.block ? &*sites.block : nullptr;
   size = static_cast<int>(nodes.size());
   z.resize(nodes.size() * Dim);
   rho.resize(nodes.size());
@@ -79,6 +87,7 @@ LocalOutcome LocalStencil<Dim>::gather(const Sites<Dim>& sites, std::span<const 
   const double inverse = 1 / radius;
   for (double& component : z) component *= inverse;
   for (double& distance : rho) distance *= inverse;
+  rounding = std::numeric_limits<double>::epsilon() * (origin.cwiseAbs().maxCoeff() * inverse + 1);
   spacing = sites.spacing.size() > 0 ? sites.spacing[anchor] * inverse : 0;
   volumes.clear();
   if (sites.volumes.size() > 0) {

@@ -18,6 +18,7 @@ enum class LocalOutcome : std::uint8_t {
   singular,    ///< nodes in a special position: on a line, a cross, a conic
   coincident,  ///< two nodes at one place
   no_centre,   ///< the method needs a node at the anchor, as the first of the stencil
+  no_block,    ///< the method needs a full index block of a structured cloud
   not_finite,  ///< a weight came out as NaN or infinity
   infeasible   ///< no non-negative weights exist: the point lies outside the nodes' convex hull
 };
@@ -25,10 +26,13 @@ enum class LocalOutcome : std::uint8_t {
 /// One stencil in coordinates scaled by its radius, gathered once for a kernel.
 template <int Dim>
 struct LocalStencil {
-  int size = 0;             ///< n, nodes, the centre included
-  int centre = -1;          ///< position of the node at the anchor, -1 when there is none
-  double radius = 1;        ///< R, the largest distance from the anchor
-  double spacing = 0;       ///< local node spacing over R, 0 when the sites have none
+  int size = 0;              ///< n, nodes, the centre included
+  int centre = -1;           ///< position of the node at the anchor, -1 when there is none
+  double radius = 1;         ///< R, the largest distance from the anchor
+  double spacing = 0;        ///< local node spacing over R, 0 when the sites have none
+  double rounding = 0;       ///< rounding unit of the coordinates over R
+  std::span<const int> ids;  ///< (n) of the nodes
+  const IndexBlock<Dim>* block = nullptr;  ///< where the ids lie, null when the sites have none
   std::vector<double> z;    ///< (Dim, n) positions relative to the anchor over R, node after node
   std::vector<double> rho;  ///< (n) distances over R
   std::vector<double> volumes;  ///< (n) cell measures over R^Dim, empty when the sites have none
