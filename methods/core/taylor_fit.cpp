@@ -179,9 +179,7 @@ std::unique_ptr<Method<Dim>> make_taylor_method(std::string name, int order,
                                                 std::string default_stencil) {
   const Needs needs{.volumes = weight->uses_volumes()};
   TaylorFit<Dim> fit(order, std::move(weight));
-  const double factor = Dim == 1 ? surplus.in_1d : Dim == 2 ? surplus.in_2d : surplus.in_3d;
-  const int size = std::max(static_cast<int>(std::ceil(factor * fit.needed_nodes() - 1e-9)),
-                            boundary_lattice_size<Dim>(order));
+  const int size = default_stencil_size<Dim>(fit.needed_nodes(), surplus, order);
   Promises promises;
   promises.reproduces = order;
   return std::make_unique<TaylorMethod<Dim>>(

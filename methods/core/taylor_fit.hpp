@@ -9,6 +9,7 @@
 #include "methods/core/derivatives.hpp"
 #include "methods/core/local_method.hpp"
 #include "methods/core/local_solvers.hpp"
+#include "methods/core/stencil_size.hpp"
 #include "methods/core/weight_function.hpp"
 
 namespace strongpoint {
@@ -72,11 +73,6 @@ extern template class TaylorFit<3>;
 /// A method made of one Taylor fit.
 template <int Dim>
 using TaylorMethod = LocalMethod<Dim, TaylorFit<Dim>>;
-
-/// Nodes per Taylor coefficient (the constant included) by which a fit's default stencil is sized.
-struct StencilSurplus {
-  double in_1d, in_2d, in_3d;
-};
 
 /// Surplus of the methods that keep stencils small: the thesis' nine nodes in 2D up to order 2,
 /// twice the coefficients above it, where fewer are ill-conditioned near boundaries.
