@@ -13,7 +13,7 @@ MethodEntry method_mls() {
            "moving least squares: derivatives of its shape functions",
            {{"degree", "2", "degree of the polynomials, 0 to 8"},
             SmoothingKernel::kernel_option("quartic_spline"),
-            SmoothingKernel::length_option(""),
+            suitable_length_option(),
             {"derivatives", "full", "full | diffuse: the window is differentiated or held fixed"}}},
           in_every_dimension<Method>([]<int Dim>(Dimension<Dim>, Options& options) {
             const int degree = options.integer("degree", 0, 8);
@@ -21,8 +21,9 @@ MethodEntry method_mls() {
                 "derivatives",
                 {{"full", Differentiation::full}, {"diffuse", Differentiation::diffuse}});
             return make_moving_method<Dim>(
-                "mls", MovingFit<Dim>(degree, StencilKernel<Dim>(options, suitable_support(degree)),
-                                      differentiation, NodeMeasure::one));
+                "mls",
+                MovingFit<Dim>(degree, StencilKernel<Dim>(options, suitable_support(Dim, degree)),
+                               differentiation, NodeMeasure::one));
           })};
 }
 

@@ -145,15 +145,16 @@ void check_against_differences(const std::string& spec) {
 
 TEST(ShapeFunctions, HaveTheDerivativesThatDifferencesOfThemTendTo) {
   for (const char* spec : {"mls", "mls[degree=0]", "mls[degree=4]", "mls[kernel=wendland]",
-                           "mls[degree=3,kernel=cubic_spline]"}) {
+                           "mls[degree=3,kernel=cubic_spline]", "rkpm", "rkpm[order=1]"}) {
     check_against_differences<1>(spec);
     check_against_differences<2>(spec);
   }
   check_against_differences<3>("mls");
+  check_against_differences<3>("rkpm");
 }
 
 TEST(ShapeFunctions, ArePartitionsOfUnityNearTheAnchorToo) {
-  for (const char* spec : {"mls[degree=0]", "mls", "mls[degree=5]"}) {
+  for (const char* spec : {"mls[degree=0]", "mls", "rkpm", "mls[degree=5]"}) {
     const TestScene<2> scene = make_scene<2>(spec, "perturbed", 10, 7);
     const MovingFit<2>& fit = kernel_of<MovingFit<2>>(*scene.method);
     for (const int anchor : scene.sites.wanted_anchors()) {
@@ -249,6 +250,24 @@ TEST(ShapeFunctions, OfAFlatWindowHaveDiffuseDerivatives) {
   }
 }
 
+TEST(ShapeFunctions, OfRkpmOnEqualVolumesAreThoseOfMls) {
+  TestScene<2> scene = make_scene<2>("rkpm", "perturbed", 10, 1);
+  scene.sites.volumes.setConstant(0.01);
+  const Derivatives<2> derivatives = Derivatives<2>::between_orders(0, 2);
+  const Weights rkpm = scene.method->weights(scene.sites, scene.stencils, derivatives);
+  const Weights mls = make_method<2>("mls").made->weights(scene.sites, scene.stencils, derivatives);
+  for (int p = 0; p < rkpm.size(); ++p) {
+    EXPECT_LT(difference(rkpm.row(p), mls.row(p)), round_off) << "node " << p;
+  }
+}
+
+TEST(ShapeFunctions, OfUnequalVolumesDiffer) {
+  const TestScene<2> scene = make_scene<2>("rkpm", "perturbed", 10, 7);
+  const Weights rkpm = scene.method->weights(scene.sites, scene.stencils, {{1, 0}});
+  const Weights mls = make_method<2>("mls").made->weights(scene.sites, scene.stencils, {{1, 0}});
+  EXPECT_GT(difference(rkpm.row(0), mls.row(0)), 1e-2);
+}
+
 TEST(ExtendedFit, HasTheKnownLaplacianOnABlockOfAGrid) {
   Points<2> nodes(2, 9);
   for (int i = 0; i < 9; ++i) nodes.col(i) << 0.25 * (i / 3), 0.25 * (i % 3);
@@ -279,7 +298,7 @@ TEST(ExtendedFit, WithAWeightInfiniteAtTheCentreAlmostKnowsTheValue) {
 }
 
 TEST(ExtendedFit, AndMovingFitsNeedNoNodeAtTheAnchor) {
-  for (const char* spec : {"mls", "gmls", "mfpm_extended", "gmls[weight=power[p=16]]"}) {
+  for (const char* spec : {"mls", "rkpm", "gmls", "mfpm_extended", "gmls[weight=power[p=16]]"}) {
     TestScene<2> scene = make_scene<2>(spec, "perturbed", 10, 1);
     Sites<2>& sites = scene.sites;
     for (int a = 0; a < sites.anchor_count(); ++a) {
