@@ -65,6 +65,24 @@ TEST(LocalSolvers, LdltSolvesDefiniteMatricesOfEitherSignAndRefusesOthers) {
   EXPECT_FALSE(ldlt.factorise(1e-10));
 }
 
+TEST(LocalSolvers, PivotedLuSolvesWhatNeedsPivotingAndRefusesSingularMatrices) {
+  std::mt19937_64 generator(12);
+  PivotedLu lu;
+  for (const int n : {1, 2, 7, 20}) {
+    Eigen::MatrixXd a = random_matrix(n, n, generator);
+    if (n > 1) a.diagonal().setZero();
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    Eigen::Map<RowMajor>(lu.prepare(n), n, n) = a;
+    ASSERT_TRUE(lu.factorise(1e-14));
+    const Eigen::VectorXd b = random_matrix(n, 1, generator);
+    Eigen::VectorXd x = b;
+    lu.solve({x.data(), x.data() + n});
+    EXPECT_LT((a * x - b).norm(), 1e-11) << n;
+  }
+  Eigen::Map<Eigen::Matrix3d>(lu.prepare(3)) << 1, 2, 3, 4, 5, 6, 7, 8, 9;
+  EXPECT_FALSE(lu.factorise(1e-14));
+}
+
 TEST(Condition, OfKnownMatrices) {
   const Eigen::MatrixXd diagonal = Eigen::Vector3d(4, 2, 0.5).asDiagonal();
   EXPECT_DOUBLE_EQ(condition_number(diagonal, ConditionNorm::two), 8);

@@ -37,6 +37,11 @@ std::string explain(LocalOutcome outcome, int size, int needed) {
           "for a "
           "larger k or the rule grow_until",
           size);
+    case LocalOutcome::flat:
+      return fmt::format(
+          "of {} nodes gives a matrix that is singular to working precision: the functions are too "
+          "flat; ask for sharper ones (a smaller shape parameter; a larger M of delta)",
+          size);
     case LocalOutcome::coincident:
       return "holds two nodes at the same place; remove one of them";
     case LocalOutcome::no_centre:

@@ -16,6 +16,7 @@ enum class LocalOutcome : std::uint8_t {
   ok,
   too_small,   ///< fewer nodes than the local system has unknowns
   singular,    ///< nodes in a special position: on a line, a cross, a conic
+  flat,        ///< singular to working precision: the functions are too flat
   coincident,  ///< two nodes at one place
   no_centre,   ///< the method needs a node at the anchor, as the first of the stencil
   no_block,    ///< the method needs a full index block of a structured cloud
