@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The studies of stencils: conditioning.
+"""The studies of stencils: conditioning and selection.
 
 Usage: test_stencil_studies.py [BUILD_DIRECTORY]; without it the variable STRONGPOINT_BUILD names it.
 """
@@ -8,10 +8,13 @@ import io
 import itertools
 import unittest
 
-from study_programs import CONTRACT, StudyTest, names_in, rows_of, run
+from study_programs import CONTRACT, TIMES, StudyTest, names_in, rows_of, run
 
 STATISTICS = ["min", "median", "p99", "max"]
 GRID = ["--problem", "field", "--method", "mfpm", "--stencil", "nearest[k=9]", "--cloud", "grid"]
+SIZES = ["size_min", "size_mean", "size_max", "condition_median", "condition_max", "over_limit"]
+ERRORS = ["u_error", "u_max_error"]
+POISSON = ["--problem", "poisson_square", "--levels", "11", "--csv", "-"]
 
 
 class Conditioning(StudyTest):
@@ -74,6 +77,49 @@ class Conditioning(StudyTest):
     def test_one_and_two_threads_give_the_same_table(self):
         one, two = (run("conditioning", "--levels", "11", "--threads", n, "--csv", "-").stdout for n in (1, 2))
         self.assertEqual(one, two)
+
+
+class Selection(StudyTest):
+    def test_table_holds_sizes_conditions_errors_and_times(self):
+        result = run("selection", *POISSON, "--stencil", "nearest[k=9],grow_until")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        header = next(csv.reader(io.StringIO(result.stdout)))
+        self.assertEqual(header, [*CONTRACT, *TIMES, "version"])
+        for stencil in ("nearest[k=9]", "grow_until"):
+            rows = [r for r in rows_of(result.stdout) if r["stencil"] == stencil]
+            self.assertEqual([r["quantity"] for r in rows], SIZES + ERRORS)
+            sizes = [float(r["value"]) for r in rows[:3]]
+            self.assertEqual(sizes, sorted(sizes))
+            for row in rows:
+                self.assertEqual((row["status"], row["rate"]), ("ok", ""))
+                self.assertGreaterEqual(float(row["t_total"]), float(row["t_stencils"]))
+
+    def test_growing_rules_are_expanded_over_limits_scalings_and_norms(self):
+        result = run("selection", *POISSON, "--cond-max", "1e3,4e8", "--scaling", "both,row", "--norm",
+                     "two,one")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        stencils = list(dict.fromkeys(r["stencil"] for r in rows_of(result.stdout)))
+        self.assertEqual(len(stencils), 2 * 2 * 2 * 2 + 5)
+        self.assertEqual(stencils[0], "grow_until[of=nearest[k=9]]")
+        self.assertIn("grow_until[cond_max=4e8,scaling=row,norm=one,of=nearest[k=15]]", stencils)
+        self.assertEqual(stencils[-5:], ["block", "star", "radius", "nearest[k=9]", "nearest[k=15]"])
+        again = run("selection", *POISSON, "--stencil", stencils[9])
+        self.assertEqual({r["stencil"] for r in rows_of(again.stdout)}, {stencils[9]})
+
+    def test_stencils_that_stop_at_the_cap_above_the_limit_are_counted(self):
+        # Every interior node of a grid has 12 with nine nodes, and nine is as far as they may grow.
+        result = run("selection", *POISSON, "--method", "mfpm", "--stencil",
+                     "grow_until[cond_max=11,cap=9,of=nearest[k=9]],grow_until[cond_max=13],nearest")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        over = [r for r in rows_of(result.stdout) if r["quantity"] == "over_limit"]
+        self.assertEqual([r["value"] for r in over], ["81", "0", ""])
+        self.assertIn("no limit", over[2]["reason"])
+
+    def test_bad_limits_are_refused_and_so_are_limits_beside_rules(self):
+        self.assert_refused(["--cond-max", "1e3,high"], "--cond-max", "high", study="selection")
+        self.assert_refused(["--scaling", "columns"], "--scaling", "columns", "row", study="selection")
+        self.assert_refused(["--stencil", "nearest", "--norm", "one"], "--norm", "--stencil",
+                            study="selection")
 
 
 if __name__ == "__main__":
