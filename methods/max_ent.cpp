@@ -17,8 +17,7 @@ constexpr double blend_reach = 8.2;
 
 double reach(const MaxEntropyOptions& options) {
   if (options.boundary == MaxEntropyBoundary::bspline) return blend_reach;
-  const double locality = options.order == 1 ? options.beta : 1 / (2 * options.gap);
-  return std::max(2.1, std::sqrt(-std::log(negligible) / locality));
+  return std::max(2.1, std::sqrt(-std::log(negligible) / options.locality()));
 }
 
 }  // namespace
@@ -33,7 +32,7 @@ MethodEntry method_max_ent() {
            "local maximum-entropy functions, first and second order",
            {{"order", "1", "of the moments prescribed, 1, or 2 in 1D and 2D"},
             {"beta", "0.8", "locality times the squared local spacing, with order=1, 0.1 to 10"},
-            {"gap", "0.3", "variance over the squared spacing, with order=2, above 0.25 to 2"},
+            {"gap", "0.6", "variance over the squared spacing, with order=2, above 0.25 to 2"},
             {"inset", "0.5", "how far inside a boundary node's derivatives are taken, 0.01 to 1"},
             {"boundary", "hull", "functions at the boundary: hull | bspline (in 1D)"}}},
           in_every_dimension<Method>([]<int Dim>(Dimension<Dim>,

@@ -65,9 +65,9 @@ TEST(LocalSolvers, LdltSolvesDefiniteMatricesOfEitherSignAndRefusesOthers) {
   EXPECT_FALSE(ldlt.factorise(1e-10));
 }
 
-TEST(LocalSolvers, PivotedLuSolvesWhatNeedsPivotingAndRefusesSingularMatrices) {
+TEST(LocalSolvers, LuSolvesWhatNeedsPivotingAndRefusesSingularMatrices) {
   std::mt19937_64 generator(12);
-  PivotedLu lu;
+  Lu lu;
   for (const int n : {1, 2, 7, 20}) {
     Eigen::MatrixXd a = random_matrix(n, n, generator);
     if (n > 1) a.diagonal().setZero();

@@ -16,10 +16,10 @@ constexpr double flat_tolerance = 1e-6;
 constexpr double end_tolerance = 1e-9;
 /// Gaps tried in 2D relative to the one wanted, and multiples of `inset` tried at the boundary.
 constexpr std::array<double, 4> gap_factors = {1, 1.5, 0.7, 2.2};
-constexpr std::array<double, 4> inset_factors = {4, 2, 3, 6};
-/// Sum of the inverse variances up to which a distribution of order 2 is taken at once; it is about
-/// 30 on a grid. Above it the least strained of all that are tried is taken.
-constexpr double relaxed = 60;
+constexpr std::array<double, 4> inset_factors = {4, 3, 5, 2};
+/// A distribution of order 2 is taken at once when its strain is below this multiple of the Gauss
+/// bell's, 2/g + 2/g^2 in 2D; otherwise the least strained of all that are tried.
+constexpr double relaxed = 2;
 
 /// Writes the derivatives (the value left out) of a distribution whose means move by `rates`; with
 /// a shift, first derivatives are carried back by it along the second ones. Lengths are in units of
@@ -104,7 +104,7 @@ EntropyOutcome MaxEntropy<Dim>::solve_linear(const LocalStencil<Dim>& stencil, W
   work.linear.resize(stencil.size);
   for (int a = 0; a < stencil.size; ++a) {
     work.linear.statistics(a) = (stencil.node(a) - at) / stencil.spacing;
-    work.linear.log_prior(a) = -options_.beta * work.linear.statistics(a).squaredNorm();
+    work.linear.log_prior(a) = -options_.locality() * work.linear.statistics(a).squaredNorm();
   }
   return work.linear.solve();
 }
@@ -117,7 +117,7 @@ Point<Dim> MaxEntropy<Dim>::prior_mean(const LocalStencil<Dim>& stencil,
   const double nearest = (stencil.node(0) - at).squaredNorm() / (stencil.spacing * stencil.spacing);
   for (int a = 0; a < stencil.size; ++a) {
     const Point<Dim> y = (stencil.node(a) - at) / stencil.spacing;
-    const double weight = std::exp(-options_.beta * (y.squaredNorm() - nearest));
+    const double weight = std::exp(-options_.locality() * (y.squaredNorm() - nearest));
     sum += weight * y;
     total += weight;
   }
@@ -191,6 +191,7 @@ template <int Dim>
 bool MaxEntropy<Dim>::solve_relaxed(const LocalStencil<Dim>& stencil, Workspace& work,
                                     const Point<Dim>& at, std::span<const Point<Dim>> shifts,
                                     Point<Dim>& shift, MeanRates<Dim, moments>& rates) const {
+  const double bell = 2 / options_.gap + 2 / (options_.gap * options_.gap);
   const std::size_t gaps = Dim == 1 ? 1 : gap_factors.size();  // any gap will do in 1D
   double best = std::numeric_limits<double>::infinity();
   double best_factor = 1;
@@ -202,7 +203,7 @@ bool MaxEntropy<Dim>::solve_relaxed(const LocalStencil<Dim>& stencil, Workspace&
       best = strain;
       best_factor = gap_factors[g];
       shift = candidate;
-      if (strain < relaxed) return true;
+      if (strain < relaxed * bell) return true;
     }
   }
   return best < std::numeric_limits<double>::infinity() &&
@@ -249,8 +250,16 @@ LocalOutcome MaxEntropy<Dim>::evaluate(const LocalStencil<Dim>& stencil, Workspa
   if (options_.boundary == MaxEntropyBoundary::bspline) {
     return evaluate_blend(stencil, work, offset, derivatives, weights);
   }
-  return options_.order == 1 ? evaluate_order_1(stencil, work, offset, derivatives, weights)
-                             : evaluate_order_2(stencil, work, offset, derivatives, weights);
+  return evaluate_order_1_or_2(stencil, work, offset, derivatives, weights);
+}
+
+template <int Dim>
+LocalOutcome MaxEntropy<Dim>::evaluate_order_1_or_2(const LocalStencil<Dim>& stencil,
+                                                    Workspace& work, const Point<Dim>& at,
+                                                    const Derivatives<Dim>& derivatives,
+                                                    Eigen::Map<Eigen::MatrixXd> weights) const {
+  return options_.order == 1 ? evaluate_order_1(stencil, work, at, derivatives, weights)
+                             : evaluate_order_2(stencil, work, at, derivatives, weights);
 }
 
 template <int Dim>
@@ -261,7 +270,7 @@ Eigen::MatrixXd MaxEntropy<Dim>::local_matrix(const LocalStencil<Dim>& stencil,
   double total = 0;
   for (int a = 0; a < stencil.size; ++a) {
     const double reach = stencil.rho[a] / stencil.spacing;
-    const double weight = std::exp(-options_.beta * reach * reach);
+    const double weight = std::exp(-options_.locality() * reach * reach);
     const Point<Dim> deviation = stencil.node(a) - mean;
     covariance += weight * deviation * deviation.transpose();
     total += weight;

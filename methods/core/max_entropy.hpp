@@ -21,9 +21,13 @@ enum class MaxEntropyBoundary {
 struct MaxEntropyOptions {
   int order = 1;       ///< of the moments that are prescribed, 1 or 2
   double beta = 0.8;   ///< locality beta h^2 of order 1, h being the local spacing
-  double gap = 0.3;    ///< variance over h^2 of order 2; in 1D h is the widest gap of the stencil
+  double gap = 0.6;    ///< variance over h^2 of order 2; in 1D h is the widest gap of the stencil
   double inset = 0.5;  ///< how far inside a boundary point's derivatives are taken
   MaxEntropyBoundary boundary = MaxEntropyBoundary::hull;
+
+  /// Of the functions of order 1, which stand on the hull with order 2 as well: there the bell that
+  /// has the gap as its variance.
+  double locality() const { return order == 1 ? beta : 1 / (2 * gap); }
 };
 
 /// How the means of S statistics move with the point: their first and second derivatives.
@@ -112,6 +116,9 @@ class MaxEntropy {
   LocalOutcome evaluate_order_2(const LocalStencil<Dim>& stencil, Workspace& work,
                                 const Point<Dim>& at, const Derivatives<Dim>& derivatives,
                                 Eigen::Map<Eigen::MatrixXd> weights) const;
+  LocalOutcome evaluate_order_1_or_2(const LocalStencil<Dim>& stencil, Workspace& work,
+                                     const Point<Dim>& at, const Derivatives<Dim>& derivatives,
+                                     Eigen::Map<Eigen::MatrixXd> weights) const;
   LocalOutcome evaluate_blend(const LocalStencil<Dim>& stencil, Workspace& work,
                               const Point<Dim>& at, const Derivatives<Dim>& derivatives,
                               Eigen::Map<Eigen::MatrixXd> weights) const;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -114,34 +115,40 @@ LocalOutcome MaxEntropy<Dim>::evaluate_blend(const LocalStencil<Dim>& stencil, W
                                              const Derivatives<Dim>& derivatives,
                                              Eigen::Map<Eigen::MatrixXd> weights) const {
   if constexpr (Dim == 1) {
-    int strips = 0;
-    LocalOutcome outcome = LocalOutcome::infeasible;
-    for (const bool is_left : {true, false}) {
-      const End end = end_of(work.positions, work.widest, stencil.spacing, is_left);
-      const double xi = end.inwards * (at[0] / stencil.spacing - end.position);
-      const double width = end_spline_width(end.second, end.third, work.widest);
-      if (!end.is_real || xi >= width) continue;
-      if (++strips > 1 || xi < -outside_tolerance) return LocalOutcome::infeasible;
-      const EndSplines splines(std::max(0.0, xi), end.second, width);
-      const Share share = share_of(splines, std::max(0.0, xi), end.second);
-      const double variance = options_.gap * work.widest * work.widest;
-      const EntropyOutcome solved =
-          options_.order == 1
-              ? solve_inside<1>(stencil, work.linear, end, share.mean, options_.beta, variance)
-              : solve_inside<2>(stencil, work.quadratic, end, share.mean, options_.beta, variance);
-      if (solved != EntropyOutcome::inside) return LocalOutcome::infeasible;
-      if (options_.order == 1) {
-        write_blend<1>(stencil, work.linear, end, splines, share, derivatives, work.row, weights);
-      } else {
-        write_blend<2>(stencil, work.quadratic, end, splines, share, derivatives, work.row,
-                       weights);
-      }
-      outcome = LocalOutcome::ok;
+    std::array<End, 2> ends = {end_of(work.positions, work.widest, stencil.spacing, true),
+                               end_of(work.positions, work.widest, stencil.spacing, false)};
+    const auto from = [&](const End& e) {
+      return e.inwards * (at[0] / stencil.spacing - e.position);
+    };
+    const auto width_of = [&](const End& e) {
+      return end_spline_width(e.second, e.third, work.widest);
+    };
+    if (from(ends[1]) < from(ends[0])) std::swap(ends[0], ends[1]);
+    const End& end = ends[0];
+    if (!end.is_real) return evaluate_order_1_or_2(stencil, work, at, derivatives, weights);
+    const double xi = from(end);
+    const double width = width_of(end);
+    const bool is_crowded = ends[1].is_real && xi < width && from(ends[1]) < width_of(ends[1]);
+    if (is_crowded || xi < -outside_tolerance) return LocalOutcome::infeasible;
+    const EndSplines splines(std::max(0.0, xi), end.second, width);
+    const Share share = share_of(splines, std::max(0.0, xi), end.second);
+    const double variance = options_.gap * work.widest * work.widest;
+    EntropyOutcome solved{};
+    if (options_.order == 1) {
+      solved = solve_inside<1>(stencil, work.linear, end, share.mean, options_.beta, variance);
+    } else {
+      solved = solve_inside<2>(stencil, work.quadratic, end, share.mean, options_.beta, variance);
     }
-    if (strips > 0) return outcome;
+    if (solved != EntropyOutcome::inside) return LocalOutcome::infeasible;
+    if (options_.order == 1) {
+      write_blend<1>(stencil, work.linear, end, splines, share, derivatives, work.row, weights);
+    } else {
+      write_blend<2>(stencil, work.quadratic, end, splines, share, derivatives, work.row, weights);
+    }
+    return LocalOutcome::ok;
+  } else {
+    return evaluate_order_1_or_2(stencil, work, at, derivatives, weights);
   }
-  return options_.order == 1 ? evaluate_order_1(stencil, work, at, derivatives, weights)
-                             : evaluate_order_2(stencil, work, at, derivatives, weights);
 }
 
 template LocalOutcome MaxEntropy<1>::evaluate_blend(const LocalStencil<1>&, Workspace&,
