@@ -26,7 +26,11 @@ double reach(const MaxEntropyOptions& options) {
 /// Source: Arroyo & Ortiz 2006; Cyron, Arroyo, Ortiz 2009; Rosolen & Arroyo 2013; thesis 1.3.3, in
 /// which (1.56) and (1.58) refer to log Z and (1.51) is read as MaxEntropy says. The locality is
 /// one number for a stencil, beta over the squared local spacing. Linear fields are reproduced; the
-/// second derivatives of order 1 are not consistent on uneven nodes.
+/// second derivatives of order 1 are not consistent: Poisson's equation keeps a relative error of
+/// 0.0006 on a grid with beta = 0.8 (0.014 with 1.2, 0.08 with 1.8, as the variance of the sampled
+/// bell oscillates between the nodes) and of 0.009 on nodes perturbed by 20 %. Those of order 2 are
+/// consistent, and a gap of 0.6 keeps second order there, where a smaller one gives centres the
+/// wrong sign.
 MethodEntry method_max_ent() {
   return {{"max_ent",
            "local maximum-entropy functions, first and second order",

@@ -282,7 +282,7 @@ TEST(MaxEntropy, MirroredNodesHaveMirroredFunctions) {
   }
 }
 
-/// Between the last max-ent point and the strip, and across the splines' knots, nothing jumps.
+/// At the end of the strip and across the splines' knots nothing jumps.
 TEST(MaxEntropy, FunctionsOfTheBlendAreContinuous) {
   const TestScene<1> scene = make_scene<1>("max_ent[order=2,boundary=bspline]", "grid", 31, 1);
   constexpr double tiny = 1e-7;

@@ -88,13 +88,14 @@ double EntropyFit<S>::evaluate(const Vector& theta) {
 template <int S>
 bool EntropyFit<S>::step(double& log_z) {
   constexpr double sufficient = 1e-4;  // of the fall that the slope predicts
-  constexpr double shortest = 1e-9;
+  constexpr int most_halvings = 30;
   const Vector from = theta_;
   const Vector direction = -covariance_.ldlt().solve(mean_);
   const double slope = mean_.dot(direction);
   if (!(slope < 0)) return false;
   const double round_off = 4e-16 * (1 + std::abs(log_z));
-  for (double length = 1; length > shortest; length /= 2) {
+  double length = 1;
+  for (int i = 0; i < most_halvings; ++i, length /= 2) {
     const double trial = evaluate(from + length * direction);
     if (trial <= log_z + sufficient * length * slope + round_off) {
       log_z = trial;

@@ -10,7 +10,7 @@
 namespace strongpoint {
 namespace {
 
-/// Nodes whose smallest extent is below this, relative to the stencil, lie on a line or a plane.
+/// Relative extent below which nodes lie on a line or plane: it makes the determinant small.
 constexpr double flat_tolerance = 1e-6;
 /// A point this near to the end of a 1D stencil, in spacings, lies on it.
 constexpr double end_tolerance = 1e-9;
@@ -53,15 +53,13 @@ void write_derivatives(const EntropyFit<S>& fit, const MeanRates<Dim, S>& rates,
   }
 }
 
-/// Writes the value wherever it is asked for.
+/// Writes the value if it is asked for.
 template <int Dim>
 void write_value(std::span<const double> value, const Derivatives<Dim>& derivatives,
                  Eigen::Map<Eigen::MatrixXd> weights) {
+  const Eigen::Map<const Eigen::RowVectorXd> row(value.data(), weights.cols());
   for (int d = 0; d < derivatives.size(); ++d) {
-    if (order_of<Dim>(derivatives[d]) > 0) continue;
-    for (std::size_t a = 0; a < value.size(); ++a) {
-      weights(d, static_cast<Eigen::Index>(a)) = value[a];
-    }
+    if (order_of<Dim>(derivatives[d]) == 0) weights.row(d) = row;
   }
 }
 
@@ -77,23 +75,22 @@ LocalOutcome MaxEntropy<Dim>::factorise(const LocalStencil<Dim>& stencil, Worksp
     const Point<Dim> deviation = stencil.node(a) - mean;
     extent += deviation * deviation.transpose();
   }
-  // A small eigenvalue makes the determinant small beside the product of the mean extents.
   const double isotropic = std::pow(extent.trace() / Dim, Dim);
   if (!(extent.determinant() > flat_tolerance * flat_tolerance * isotropic)) {
     return LocalOutcome::singular;
   }
   if constexpr (Dim == 1) {
-    work.positions.assign(stencil.z.begin(), stencil.z.begin() + stencil.size);
+    work.positions.assign(stencil.z.begin(), stencil.z.end());
     std::sort(work.positions.begin(), work.positions.end());
     work.widest = 0;
     for (int a = 1; a < stencil.size; ++a) {
       work.widest = std::max(work.widest, work.positions[a] - work.positions[a - 1]);
     }
     work.widest /= stencil.spacing;
-    const std::vector<double>& x = work.positions;
-    const std::size_t n = x.size();
+    const double* x = work.positions.data();
+    const double* last = x + stencil.size - 1;
     work.left_ramp = std::min(work.widest / 2, (x[1] - x[0]) / stencil.spacing);
-    work.right_ramp = std::min(work.widest / 2, (x[n - 1] - x[n - 2]) / stencil.spacing);
+    work.right_ramp = std::min(work.widest / 2, (last[0] - last[-1]) / stencil.spacing);
   }
   return LocalOutcome::ok;
 }
@@ -112,8 +109,8 @@ EntropyOutcome MaxEntropy<Dim>::solve_linear(const LocalStencil<Dim>& stencil, W
 template <int Dim>
 Point<Dim> MaxEntropy<Dim>::prior_mean(const LocalStencil<Dim>& stencil,
                                        const Point<Dim>& at) const {
-  Point<Dim> sum = Point<Dim>::Zero();
   double total = 0;
+  Point<Dim> sum = Point<Dim>::Zero();
   const double nearest = (stencil.node(0) - at).squaredNorm() / (stencil.spacing * stencil.spacing);
   for (int a = 0; a < stencil.size; ++a) {
     const Point<Dim> y = (stencil.node(a) - at) / stencil.spacing;
@@ -183,8 +180,8 @@ double MaxEntropy<Dim>::solve_quadratic(const LocalStencil<Dim>& stencil, Worksp
     work.quadratic.statistics(a) -= means;
     work.quadratic.log_prior(a) = 0;
   }
-  const bool is_inside = work.quadratic.solve() == EntropyOutcome::inside;
-  return is_inside ? work.quadratic.strain() : std::numeric_limits<double>::infinity();
+  if (work.quadratic.solve() == EntropyOutcome::inside) return work.quadratic.strain();
+  return std::numeric_limits<double>::infinity();
 }
 
 template <int Dim>
@@ -194,20 +191,20 @@ bool MaxEntropy<Dim>::solve_relaxed(const LocalStencil<Dim>& stencil, Workspace&
   const double bell = 2 / options_.gap + 2 / (options_.gap * options_.gap);
   const std::size_t gaps = Dim == 1 ? 1 : gap_factors.size();  // any gap will do in 1D
   double best = std::numeric_limits<double>::infinity();
-  double best_factor = 1;
+  double factor = 1;
   for (const Point<Dim>& candidate : shifts) {
     for (std::size_t g = 0; g < gaps; ++g) {
-      const Point<Dim> place = at + stencil.spacing * candidate;
-      const double strain = solve_quadratic(stencil, work, place, gap_factors[g], rates);
+      const double strain =
+          solve_quadratic(stencil, work, at + stencil.spacing * candidate, gap_factors[g], rates);
       if (!(strain < best)) continue;
       best = strain;
-      best_factor = gap_factors[g];
+      factor = gap_factors[g];
       shift = candidate;
       if (strain < relaxed * bell) return true;
     }
   }
   return best < std::numeric_limits<double>::infinity() &&
-         solve_quadratic(stencil, work, at + stencil.spacing * shift, best_factor, rates) == best;
+         solve_quadratic(stencil, work, at + stencil.spacing * shift, factor, rates) == best;
 }
 
 template <int Dim>
@@ -235,8 +232,8 @@ LocalOutcome MaxEntropy<Dim>::evaluate_order_2(const LocalStencil<Dim>& stencil,
       }
     }
     is_found = solve_relaxed(stencil, work, at, shifts, shift, rates);
+    if (!is_found) return LocalOutcome::infeasible;
   }
-  if (!is_found) return LocalOutcome::infeasible;
   write_derivatives<Dim, moments>(work.quadratic, rates, shift, stencil.spacing, derivatives,
                                   work.row, weights);
   return LocalOutcome::ok;
@@ -269,8 +266,8 @@ Eigen::MatrixXd MaxEntropy<Dim>::local_matrix(const LocalStencil<Dim>& stencil,
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(Dim, Dim);
   double total = 0;
   for (int a = 0; a < stencil.size; ++a) {
-    const double reach = stencil.rho[a] / stencil.spacing;
-    const double weight = std::exp(-options_.locality() * reach * reach);
+    const double weight =
+        std::exp(-options_.locality() * std::pow(stencil.rho[a] / stencil.spacing, 2));
     const Point<Dim> deviation = stencil.node(a) - mean;
     covariance += weight * deviation * deviation.transpose();
     total += weight;
