@@ -302,6 +302,25 @@ TEST(ContractMethods, EvaluateOffTheAnchorAsTheirLocalPolynomial) {
   }
 }
 
+TEST(ContractMethods, ReproducePolynomialsAtAnchorsThatAreNoNodesUnlessTheyNeedACentre) {
+  for (const std::string& spec : method_specs(4)) {
+    TestScene<2> scene = make_scene<2>(spec, "perturbed", 12, 9);
+    const Needs needs = scene.method->needs();
+    if (needs.centre || needs.block) continue;
+    for (int a = 0; a < scene.sites.anchor_count(); ++a) {  // stencils stay, they serve nearby too
+      scene.sites.anchors.col(a) += 0.05 * (Point<2>(0.52, 0.49) - scene.sites.anchors.col(a));
+      scene.sites.anchor_node[a] = -1;
+    }
+    scene.sites.points = scene.sites.anchors;
+    const Derivatives<2> derivatives{{0, 0}, {1, 0}, {0, 1}};
+    const Weights weights = scene.method->weights(scene.sites, scene.stencils, derivatives);
+    const int degree = scene.method->promises().reproduces;
+    for (const MultiIndex<2>& alpha : Derivatives<2>::between_orders(0, degree)) {
+      EXPECT_LT(worst_residual<2>(scene, weights, derivatives, alpha), 1e-11) << spec;
+    }
+  }
+}
+
 TEST(ContractMethods, AreBitwiseEqualOnOneAndFourThreads) {
   for (const std::string& spec : method_specs(2)) {
     const TestScene<2> scene = make_scene<2>(spec, "perturbed", 25, 1);

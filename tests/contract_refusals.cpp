@@ -35,6 +35,9 @@ TEST(ContractRefusals, ComeWhenADeclaredNeedIsDropped) {
     sites = scene.sites;
     sites.block.reset();
     if (needs.block) expect_refusal(sites);
+    sites = scene.sites;
+    std::fill(sites.anchor_node.begin(), sites.anchor_node.end(), -1);
+    if (needs.centre) expect_refusal(sites);
   }
   EXPECT_GE(with_needs, 2);  // mfpm_original and gfdm[weight=volume] at least
 }

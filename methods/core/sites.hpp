@@ -17,12 +17,14 @@ struct Needs {
   bool volumes = false;  ///< measure of each node's cell
   bool spacing = false;  ///< local spacing of the nodes around each anchor
   bool block = false;    ///< an index block: the cloud has to be structured
+  bool centre = false;   ///< a node at every anchor, which then is in its stencil
 
   /// What either of two methods wants.
   friend Needs operator|(const Needs& a, const Needs& b) {
     return {.volumes = a.volumes || b.volumes,
             .spacing = a.spacing || b.spacing,
-            .block = a.block || b.block};
+            .block = a.block || b.block,
+            .centre = a.centre || b.centre};
   }
 };
 

@@ -177,7 +177,7 @@ std::unique_ptr<Method<Dim>> make_taylor_method(std::string name, int order,
                                                 std::shared_ptr<const WeightFunction> weight,
                                                 StencilSurplus surplus,
                                                 std::string default_stencil) {
-  const Needs needs{.volumes = weight->uses_volumes()};
+  const Needs needs{.volumes = weight->uses_volumes(), .centre = true};
   TaylorFit<Dim> fit(order, std::move(weight));
   const int size = default_stencil_size<Dim>(fit.needed_nodes(), surplus, order);
   Promises promises;
