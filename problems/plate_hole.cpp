@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "problems/core/elasticity.hpp"
+#include "problems/core/flux_problem.hpp"
 #include "problems/core/jet.hpp"
 #include "problems/core/norms.hpp"
-#include "problems/core/problem.hpp"
 
 namespace strongpoint {
 namespace {
@@ -119,7 +119,7 @@ struct Kirsch {
   }
 };
 
-class PlateHole final : public SteadyProblem<2> {
+class PlateHole final : public FluxProblem<2> {
  public:
   PlateHole(double a, double nu, Map map)
       : domain_(a, map),
@@ -150,6 +150,17 @@ class PlateHole final : public SteadyProblem<2> {
       for (int i = 0; i < 2; ++i)
         write_traction(node, Point2::Unit(i), node.marks[0].normal, write);
     }
+  }
+
+  void flux(int field, const Point2& direction, EquationWriter<2>& write) const override {
+    add_traction<2>(write, material_, Point2::Unit(field), direction);
+  }
+  double source(int, const Point2&) const override { return 0; }
+  SideCondition condition(int field, int side, const Point2& x) const override {
+    if (field == suppressed(side)) return {SideCondition::Kind::value, 0};
+    const bool is_loaded = side == right || side == top;
+    const Point2 n = domain_.normal(side, x);
+    return {SideCondition::Kind::flux, is_loaded ? exact_stress_at(x).row(field).dot(n) : 0};
   }
 
   std::vector<std::string> quantities() const override {
@@ -200,10 +211,15 @@ class PlateHole final : public SteadyProblem<2> {
     return stress<2>(material_, gradient);
   }
 
-  /// The displacement component that a symmetry plane at the node suppresses, -1 without one.
+  /// The displacement component that a side suppresses, being a symmetry plane, -1 when it is none.
+  static int suppressed(int side) { return side == bottom ? 1 : side == left ? 0 : -1; }
+
+  /// The same for the first symmetry plane at a node.
   static int symmetry_plane(const Node<2>& node) {
-    if (node.on(bottom)) return 1;
-    return node.on(left) ? 0 : -1;
+    for (const BoundaryMark<2>& mark : node.marks) {
+      if (suppressed(mark.side) >= 0) return suppressed(mark.side);
+    }
+    return -1;
   }
 
   /// Zero normal displacement; zero shear, or, where a loaded or free side meets the plane, that
@@ -213,8 +229,7 @@ class PlateHole final : public SteadyProblem<2> {
     write.equals(0);
     const Point2 along = Point2::Unit(1 - plane);
     for (const BoundaryMark<2>& mark : node.marks) {
-      const bool is_other_side = mark.side != bottom && mark.side != left;
-      if (is_other_side) return write_traction(node, along, mark.normal, write);
+      if (suppressed(mark.side) < 0) return write_traction(node, along, mark.normal, write);
     }
     add_traction<2>(write, material_, along, Point2::Unit(plane));
     write.equals(0);

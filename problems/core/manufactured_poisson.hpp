@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "problems/core/elasticity.hpp"
+#include "problems/core/flux_problem.hpp"
 #include "problems/core/jet.hpp"
 #include "problems/core/norms.hpp"
-#include "problems/core/problem.hpp"
 
 namespace strongpoint {
 
@@ -15,7 +15,7 @@ enum class RightSide { dirichlet, neumann };
 /// lap u = f on the unit cube, with f and the boundary data derived from a given u, generic in its
 /// number type: `Exact{}(const std::array<T, Dim>&)`.
 template <int Dim, class Exact>
-class ManufacturedPoisson final : public SteadyProblem<Dim> {
+class ManufacturedPoisson final : public FluxProblem<Dim> {
  public:
   explicit ManufacturedPoisson(RightSide right) : right_(right) {}
 
@@ -30,15 +30,28 @@ class ManufacturedPoisson final : public SteadyProblem<Dim> {
   void equations(const Node<Dim>& node, EquationWriter<Dim>& write) const override {
     if (node.marks.empty()) {
       for (const MultiIndex<Dim>& alpha : laplacian_) write.add(0, alpha, 1);
-      write.equals(exact_derivatives<Dim>(Exact{}, node.x, laplacian_).sum());
+      write.equals(source(0, node.x));
     } else if (is_neumann(node.marks)) {
-      const Derivatives<Dim> normal{partial<Dim>(0)};
-      write.add(0, normal[0], 1);
-      write.equals(exact_derivatives<Dim>(Exact{}, node.x, normal)[0]);
+      write.add(0, partial<Dim>(0), 1);
+      write.equals(condition(0, right_side, node.x).given);
     } else {
       write.add(0, MultiIndex<Dim>{}, 1);
       write.equals(value_at(node.x));
     }
+  }
+
+  void flux(int, const Point<Dim>& direction, EquationWriter<Dim>& write) const override {
+    for (int c = 0; c < Dim; ++c) write.add(0, partial<Dim>(c), direction[c]);
+  }
+  double source(int, const Point<Dim>& x) const override {
+    return exact_derivatives<Dim>(Exact{}, x, laplacian_).sum();
+  }
+  SideCondition condition(int, int side, const Point<Dim>& x) const override {
+    if (right_ == RightSide::dirichlet || side != right_side) {
+      return {SideCondition::Kind::value, value_at(x)};
+    }
+    return {SideCondition::Kind::flux,
+            exact_derivatives<Dim>(Exact{}, x, Derivatives<Dim>{partial<Dim>(0)})[0]};
   }
 
   std::vector<std::string> quantities() const override { return {"u_error", "u_max_error"}; }
@@ -51,6 +64,7 @@ class ManufacturedPoisson final : public SteadyProblem<Dim> {
   }
 
  private:
+  static constexpr int right_side = 1;  // UnitCube's second side, x = 1
   RightSide right_;
   UnitCube<Dim> domain_;
   Derivatives<Dim> laplacian_ = [] {
@@ -61,8 +75,7 @@ class ManufacturedPoisson final : public SteadyProblem<Dim> {
 
   /// Dirichlet wins at shared edges and corners.
   bool is_neumann(std::span<const BoundaryMark<Dim>> marks) const {
-    constexpr int right = 1;  // UnitCube's second side, x = 1
-    return right_ == RightSide::neumann && marks.size() == 1 && marks[0].side == right;
+    return right_ == RightSide::neumann && marks.size() == 1 && marks[0].side == right_side;
   }
   static double value_at(const Point<Dim>& x) {
     return exact_derivatives<Dim>(Exact{}, x, Derivatives<Dim>{MultiIndex<Dim>{}})[0];
