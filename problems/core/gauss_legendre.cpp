@@ -1,0 +1,42 @@
+#include "problems/core/gauss_legendre.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace strongpoint {
+namespace {
+
+/// Value and slope of the Legendre polynomial of degree n at x.
+struct Legendre {
+  double value, slope;
+
+  Legendre(int n, double x) {
+    double before = 1;
+    value = x;
+    for (int k = 2; k <= n; ++k) {
+      const double next = ((2 * k - 1) * x * value - (k - 1) * before) / k;
+      before = value;
+      value = next;
+    }
+    slope = n * (x * value - before) / (x * x - 1);
+  }
+};
+
+}  // namespace
+
+LineRule gauss_legendre(int n) {
+  LineRule rule;
+  for (int i = n - 1; i >= 0; --i) {
+    double x = std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5));  // Tricomi's estimate
+    for (int step = 0; step < 8; ++step) {
+      const Legendre p(n, x);
+      x -= p.value / p.slope;
+    }
+    const double slope = Legendre(n, x).slope;
+    rule.at.push_back((1 + x) / 2);
+    rule.weight.push_back(1 / ((1 - x * x) * slope * slope));
+  }
+  return rule;
+}
+
+}  // namespace strongpoint

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+namespace strongpoint {
+
+/// A quadrature rule on [0, 1].
+struct LineRule {
+  std::vector<double> at;      ///< ascending
+  std::vector<double> weight;  ///< positive, sum 1
+
+  int size() const { return static_cast<int>(at.size()); }
+};
+
+/// Gauss-Legendre rule of n >= 1 points, exact for polynomials of degree 2n - 1. Nodes are found by
+/// Newton's method on the Legendre polynomial.
+LineRule gauss_legendre(int n);
+
+}  // namespace strongpoint
