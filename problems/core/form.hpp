@@ -22,13 +22,16 @@ class Form {
   Form& operator=(const Form&) = delete;
   virtual ~Form() = default;
 
-  /// Why this method cannot serve, in a sentence; empty when it can.
-  virtual std::string unsupported(const Method<Dim>& method) const = 0;
+  /// Why this problem cannot be written so, or this method cannot serve, in a sentence; empty when
+  /// both can.
+  virtual std::string unsupported(const SteadyProblem<Dim>& problem,
+                                  const Method<Dim>& method) const = 0;
   /// Derivatives whose weights the equations read, over all nodes that need a stencil.
   virtual Derivatives<Dim> derivatives(const SteadyProblem<Dim>& problem,
                                        const PointCloud<Dim>& cloud,
                                        const Method<Dim>& method) const = 0;
-  /// The sites the problem needs on this cloud, without what the method's needs add.
+  /// The sites the problem needs on this cloud, without what the method's needs add. The first
+  /// points are the nodes, in their order.
   virtual Sites<Dim> sites(const SteadyProblem<Dim>& problem, const PointCloud<Dim>& cloud,
                            const Method<Dim>& method) const = 0;
   /// One row per node and field, row = node * fields + field.

@@ -49,7 +49,7 @@ struct Solution {
   Eigen::MatrixXd fields;               ///< (fields, N) values at the nodes
   Eigen::MatrixXd parameters;           ///< (fields, N) what the weights multiply: the values, with
                                         ///< a method that interpolates
-  const Weights& weights;               ///< (N points x nodes)
+  const Weights& weights;               ///< (points x nodes), the nodes' own points first
   const Derivatives<Dim>& derivatives;  ///< of the weights
 
   /// A derivative of a field at every node, (N). Throws std::logic_error when it was not declared

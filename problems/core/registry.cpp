@@ -26,8 +26,8 @@ NamedProblem make_problem(std::string_view text) {
 template <int Dim>
 Eigen::VectorXd Solution<Dim>::derivative(int field, const MultiIndex<Dim>& alpha) const {
   const int slot = derivatives.index(alpha);
-  Eigen::VectorXd result(weights.size());
-  for (int p = 0; p < weights.size(); ++p) {
+  Eigen::VectorXd result(cloud.size());
+  for (int p = 0; p < cloud.size(); ++p) {
     const std::span<const int> nodes = weights.nodes(p);
     if (nodes.empty()) {
       throw CaseError(fmt::format("{} at node {} {} is asked for, but the node has no stencil",

@@ -51,7 +51,7 @@ Eigen::MatrixXd nodal_values(const Discretisation<Dim>& scene, const Eigen::Matr
   if (!scene.derivatives.contains(value)) return parameters;
   const int slot = scene.derivatives.index(value);
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(parameters.rows(), parameters.cols());
-  for (int p = 0; p < scene.weights.size(); ++p) {
+  for (int p = 0; p < scene.cloud.size(); ++p) {  // points beyond are no nodes
     const std::span<const int> nodes = scene.weights.nodes(p);
     const Eigen::Map<const Eigen::MatrixXd> row = scene.weights.row(p);
     for (std::size_t j = 0; j < nodes.size(); ++j) {
@@ -185,7 +185,9 @@ Discretisation<Dim> discretise(const SteadyProblem<Dim>& problem, const CaseKey&
   const StageClock clock(options.threads);
   const Choices<Dim> choices(key);
   const std::unique_ptr<Form<Dim>> form = make_form<Dim>(key.form);
-  if (const std::string why = form->unsupported(*choices.method); !why.empty()) throw SkipCase(why);
+  if (const std::string why = form->unsupported(problem, *choices.method); !why.empty()) {
+    throw SkipCase(why);
+  }
   Discretisation<Dim> scene;
   scene.cloud =
       clock.time(times.cloud, [&] { return make_case_cloud<Dim>(problem.domain(), key, options); });

@@ -17,7 +17,9 @@ bool reads_value_only(const SteadyProblem<Dim>& problem, std::span<const Boundar
 template <int Dim>
 class Collocation final : public Form<Dim> {
  public:
-  std::string unsupported(const Method<Dim>&) const override { return {}; }
+  std::string unsupported(const SteadyProblem<Dim>&, const Method<Dim>&) const override {
+    return {};
+  }
 
   Derivatives<Dim> derivatives(const SteadyProblem<Dim>& problem, const PointCloud<Dim>& cloud,
                                const Method<Dim>& method) const override {

@@ -1,0 +1,345 @@
+// The form mlpg: quadrature over discs that the boundary cuts, patch tests, convergence.
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include "problems/core/assembly.hpp"
+#include "problems/core/disc_quadrature.hpp"
+#include "problems/core/elasticity.hpp"
+#include "problems/core/flux_problem.hpp"
+#include "problems/core/layout.hpp"
+#include "problems/core/manufactured_poisson.hpp"
+#include "studies/support/run_case.hpp"
+
+namespace strongpoint {
+namespace {
+
+using Point2 = Point<2>;
+using std::numbers::pi;
+
+constexpr DiscCounts default_counts{6, 12};
+
+TEST(GaussLegendre, IsExactForPolynomialsUpToDegree2nMinus1AndNoFurther) {
+  for (int n = 1; n <= 20; ++n) {
+    const LineRule rule = gauss_legendre(n);
+    const auto error = [&](int degree) {
+      double sum = 0;
+      for (int i = 0; i < n; ++i) sum += rule.weight[i] * std::pow(rule.at[i], degree);
+      return std::abs(sum - 1.0 / (degree + 1));
+    };
+    for (int degree = 0; degree < 2 * n; ++degree) EXPECT_LT(error(degree), 1e-14) << n;
+    if (n <= 8) {
+      EXPECT_GT(error(2 * n), 1e-12) << n;
+    }
+    EXPECT_TRUE(std::is_sorted(rule.at.begin(), rule.at.end()));
+  }
+}
+
+double area_of(const DiscRule& rule) {
+  double sum = 0;
+  for (const AreaPoint& point : rule.area) sum += point.weight;
+  return sum;
+}
+
+double length_of(const DiscRule& rule) {
+  double sum = 0;
+  for (const EdgePoint& point : rule.edge) sum += point.weight;
+  return sum;
+}
+
+/// Area of a circle of radius r beyond a line at distance d from its centre.
+double cap_area(double r, double d) {
+  return r * r * std::acos(d / r) - d * std::sqrt(r * r - d * d);
+}
+
+TEST(DiscQuadrature, IntegratesPolynomialsOverWholeDiscs) {
+  const UnitCube<2> square;
+  const DiscRule rule = DiscQuadrature(square, default_counts).whole({0.4, 0.6}, 0.2);
+  double fourth = 0;  // of x^2 y^2 about the centre: pi r^6 / 24
+  for (const AreaPoint& point : rule.area) {
+    const Point2 z = point.x - Point2(0.4, 0.6);
+    fourth += point.weight * z[0] * z[0] * z[1] * z[1];
+  }
+  EXPECT_NEAR(area_of(rule), pi * 0.04, 1e-15);
+  EXPECT_NEAR(fourth, pi * std::pow(0.2, 6) / 24, 1e-17);
+  EXPECT_EQ(rule.area.size(), 72U);
+}
+
+TEST(DiscQuadrature, HalvesDiscsAtEdgesAndQuartersThemAtCorners) {
+  const UnitCube<2> square;
+  const DiscQuadrature quadrature(square, default_counts);
+  const DiscRule edge = quadrature.cut({0.3, 0}, 0.1);
+  EXPECT_NEAR(area_of(edge), pi * 0.01 / 2, 1e-14);
+  EXPECT_NEAR(length_of(edge), 0.2, 1e-12);
+  const DiscRule corner = quadrature.cut({1, 1}, 0.1);
+  EXPECT_NEAR(area_of(corner), pi * 0.01 / 4, 1e-14);
+  EXPECT_NEAR(length_of(corner), 0.2, 1e-12);
+  for (const AreaPoint& point : corner.area) EXPECT_LT(square.distance(point.x), 0);
+  // The rim passes through a corner: whatever the round-off, the disc is a half.
+  for (const double x : {0.05, 0.1, 0.15, 0.3}) {
+    EXPECT_NEAR(area_of(quadrature.cut({x, 0}, x)), pi * x * x / 2, 1e-12) << x;
+  }
+}
+
+TEST(DiscQuadrature, CutsDiscsByASecondSide) {
+  const UnitCube<2> square;
+  constexpr double r = 0.1;
+  for (const double d : {0.02, 0.05, 0.09}) {  // the node's distance from the corner
+    const DiscRule rule = DiscQuadrature(square, default_counts).cut({d, 0}, r);
+    EXPECT_NEAR(area_of(rule), (pi * r * r - cap_area(r, d)) / 2, 1e-14) << d;
+    EXPECT_NEAR(length_of(rule), r + d + std::sqrt(r * r - d * d), 1e-12) << d;
+  }
+  const DiscRule inside = DiscQuadrature(square, default_counts).cut({0.5, 0.08}, r);
+  EXPECT_NEAR(area_of(inside), pi * r * r - cap_area(r, 0.08), 1e-14);
+  EXPECT_NEAR(area_of(DiscQuadrature(square, default_counts).cut({0.5, 0.5}, 1)), 1, 1e-14);
+}
+
+/// The domain of plate_hole with a hole of radius 0.2.
+const Domain<2>& plate_domain() {
+  static const NamedProblem plate = make_problem("plate_hole");
+  return std::get<1>(plate.made)->domain();
+}
+
+TEST(DiscQuadrature, CutsDiscsByTheHoleOfThePlate) {
+  constexpr double a = 0.2;
+  for (const double r : {0.01, 0.03, 0.06}) {
+    const Point2 node = a * Point2(std::cos(0.7), std::sin(0.7));
+    const DiscRule rule = DiscQuadrature(plate_domain(), default_counts).cut(node, r);
+    // A lens: the discs of radius r about the node and of radius a about the origin.
+    const double half = std::acos(r / (2 * a));  // angle at the node
+    const double lens =
+        r * r * half + a * a * (pi - 2 * half) - a * r * std::sqrt(1 - r * r / (4 * a * a));
+    EXPECT_NEAR(area_of(rule), pi * r * r - lens, 1e-10 * r * r) << r;
+    EXPECT_NEAR(length_of(rule), 4 * a * std::asin(r / (2 * a)), 1e-10 * r) << r;
+    for (const AreaPoint& point : rule.area) {
+      EXPECT_LT(plate_domain().distance(point.x), r * r / (2 * a));
+    }
+  }
+}
+
+/// int div(v F) = int_edge v F.n for the form's test function v and a cubic field F.
+TEST(DiscQuadrature, SatisfiesTheDivergenceTheoremOnEveryBoundaryNode) {
+  const UnitCube<2> square;
+  for (const Domain<2>* domain : std::vector<const Domain<2>*>{&square, &plate_domain()}) {
+    const PointCloud<2> cloud = make_cloud<2>(*domain, "grid", LayoutRequest{11, 1});
+    const DiscQuadrature quadrature(*domain, default_counts);
+    for (int i = 0; i < cloud.size(); ++i) {
+      if (!cloud.is_boundary(i)) continue;
+      const double r = 0.03;
+      const Point2 centre = cloud.nodes.col(i);
+      const DiscRule rule = quadrature.cut(centre, r);
+      double balance = 0;
+      double magnitude = 0;
+      for (const AreaPoint& p : rule.area) {
+        const Point2 z = (p.x - centre) / r;
+        const double t = z.norm();
+        const double v = 1 - 6 * t * t + 8 * t * t * t - 3 * t * t * t * t;
+        const Point2 flux(1 + z[0] * z[1], 2 - z[1] * z[1] * z[0]);
+        const double divergence = z[1] - 2 * z[1] * z[0];
+        const double term = v * divergence - 12 * (1 - t) * (1 - t) * z.dot(flux);
+        balance += p.weight / r * term;
+        magnitude += std::abs(p.weight / r * term);
+      }
+      for (const EdgePoint& p : rule.edge) {
+        const Point2 z = (p.x - centre) / r;
+        const double t = z.norm();
+        const double v = 1 - 6 * t * t + 8 * t * t * t - 3 * t * t * t * t;
+        const Point2 flux(1 + z[0] * z[1], 2 - z[1] * z[1] * z[0]);
+        balance -= p.weight * v * flux.dot(domain->normal(p.side, p.x));
+      }
+      EXPECT_LT(std::abs(balance), 1e-6 * magnitude) << i << ' ' << centre.transpose();
+    }
+  }
+}
+
+/// u = 3 - 2x + y/2, of which every method of degree 1 is to give the very values.
+struct LinearField {
+  template <class T>
+  T operator()(const std::array<T, 2>& x) const {
+    return 3.0 - 2.0 * x[0] + 0.5 * x[1];
+  }
+};
+
+/// Homogeneous strain, on any domain: displacements given on one side, or tractions on all others.
+class HomogeneousStrain final : public FluxProblem<2> {
+ public:
+  HomogeneousStrain(const Domain<2>& domain, std::vector<std::string> clamped)
+      : domain_(domain), clamped_(std::move(clamped)) {}
+
+  static Point2 displacement(const Point2& x) { return gradient() * x + Point2(0.1, 0.2); }
+
+  const Domain<2>& domain() const override { return domain_; }
+  std::vector<std::string> fields() const override { return {"u", "v"}; }
+  void flux(int field, const Point2& direction, EquationWriter<2>& write) const override {
+    add_traction<2>(write, material, Point2::Unit(field), direction);
+  }
+  double source(int, const Point2&) const override { return 0; }
+  SideCondition condition(int field, int side, const Point2& x) const override {
+    const std::string& name = domain_.sides()[side];
+    if (std::find(clamped_.begin(), clamped_.end(), name) != clamped_.end()) {
+      return {SideCondition::Kind::value, displacement(x)[field]};
+    }
+    const Point2 traction = stress<2>(material, gradient()) * domain_.normal(side, x);
+    return {SideCondition::Kind::flux, traction[field]};
+  }
+
+  Derivatives<2> derivatives(std::span<const BoundaryMark<2>>) const override { return {}; }
+  void equations(const Node<2>&, EquationWriter<2>&) const override {}
+  std::vector<std::string> quantities() const override { return {}; }
+  std::vector<double> measure(const Solution<2>&) const override { return {}; }
+
+ private:
+  inline static const Lame material = lame_constants(10, 0.3);
+  const Domain<2>& domain_;
+  std::vector<std::string> clamped_;
+
+  static Eigen::Matrix2d gradient() {
+    Eigen::Matrix2d result;
+    result << 0.3, -0.1, 0.4, 0.2;
+    return result;
+  }
+};
+
+/// Nodal parameters of a problem written in the form.
+template <class Problem>
+Eigen::MatrixXd solved(const Problem& problem, const std::string& form, const std::string& method,
+                       const std::string& cloud, PointCloud<2>& nodes) {
+  const CaseKey key{"",        method, make_method<2>(method).made->default_stencil(), cloud, form,
+                    "umfpack", 12};
+  StageTimes times;
+  const Discretisation<2> scene = discretise<2>(problem, key, RunOptions{}, times);
+  const int fields = static_cast<int>(problem.fields().size());
+  const EquationList equations =
+      make_form<2>(form)->equations(problem, scene.cloud, scene.derivatives);
+  const LinearSystem system = assemble(equations, scene.weights, scene.cloud.size(), fields);
+  const LinearSolution linear = solve(system, "umfpack");
+  nodes = scene.cloud;
+  return Eigen::Map<const Eigen::MatrixXd>(linear.x.data(), fields, scene.cloud.size());
+}
+
+/// Given values and whole discs leave round-off alone. The area and the edge of a cut disc agree to
+/// the accuracy of the quadrature, so that given fluxes need more points (the default leaves 2e-8).
+constexpr double patch_tolerance = 1e-8;
+const char* const fine = "mlpg[radial=8,angular=24]";
+
+TEST(Mlpg, PassesThePatchTestOfPoisson) {
+  for (const char* method : {"mls", "mls[h=1.3]", "mls[degree=1]", "rbf_fd"}) {
+    for (const char* cloud : {"grid", "perturbed[amount=0.3]", "scattered"}) {
+      for (const RightSide right : {RightSide::dirichlet, RightSide::neumann}) {
+        const ManufacturedPoisson<2, LinearField> problem(right);
+        PointCloud<2> nodes;
+        const char* form = right == RightSide::dirichlet ? "mlpg" : fine;
+        const Eigen::MatrixXd parameters = solved(problem, form, method, cloud, nodes);
+        for (int i = 0; i < nodes.size(); ++i) {
+          const double exact = LinearField{}(std::array{nodes.nodes(0, i), nodes.nodes(1, i)});
+          EXPECT_NEAR(parameters(0, i), exact, patch_tolerance) << method << " on " << cloud;
+        }
+      }
+    }
+  }
+}
+
+TEST(Mlpg, PassesThePatchTestOfElasticityWithDisplacementsAndTractions) {
+  const UnitCube<2> square;
+  const std::vector<std::string> all{"left", "right", "bottom", "top"};
+  struct Case {
+    const Domain<2>& domain;
+    std::vector<std::string> clamped;
+    const char* form;
+  };
+  for (const Case& c : {Case{square, all, "mlpg"}, Case{square, {"left"}, fine},
+                        Case{plate_domain(), {"bottom"}, fine}}) {
+    for (const char* cloud : {"grid", "perturbed[amount=0.3]", "scattered"}) {
+      const HomogeneousStrain problem(c.domain, c.clamped);
+      PointCloud<2> nodes;
+      const Eigen::MatrixXd parameters = solved(problem, c.form, "mls[h=1.3]", cloud, nodes);
+      for (int i = 0; i < nodes.size(); ++i) {
+        const Point2 exact = HomogeneousStrain::displacement(nodes.nodes.col(i));
+        EXPECT_LT((parameters.col(i) - exact).norm(), patch_tolerance) << cloud;
+      }
+    }
+  }
+}
+
+/// What a problem measures on a grid, solved with moving least squares on about 21 nodes.
+std::vector<Quantity> measured(const std::string& problem, const std::string& form, int level) {
+  const CaseKey key{problem, "mls[h=1.3]", "radius", "grid", form, "umfpack", level};
+  return run_steady_case(key, RunOptions{}).quantities;
+}
+
+/// Measured orders: 2.2 (Poisson), 2.1 and 2.4 (displacement and stress).
+TEST(Mlpg, ConvergesAtSecondOrder) {
+  for (const char* problem : {"poisson_square", "poisson_square[bc=mixed]", "plate_hole"}) {
+    const std::vector<Quantity> coarse = measured(problem, "mlpg", 21);
+    const std::vector<Quantity> refined = measured(problem, "mlpg", 41);
+    const double bound = std::string(problem) == "plate_hole" ? 0.03 : 1.5e-4;
+    for (std::size_t q = 0; q < coarse.size(); ++q) {
+      EXPECT_LT(coarse[q].value.value(), bound) << problem << ' ' << coarse[q].name;
+      EXPECT_LT(refined[q].value.value(), coarse[q].value.value() / 3.3)
+          << problem << ' ' << coarse[q].name;
+    }
+  }
+}
+
+TEST(Mlpg, HasEnoughQuadraturePointsByDefault) {
+  for (const char* problem : {"poisson_square[bc=mixed]", "plate_hole"}) {
+    const double few = measured(problem, "mlpg", 21).back().value.value();
+    const double many = measured(problem, "mlpg[radial=10,angular=20]", 21).back().value.value();
+    EXPECT_LT(std::abs(few - many), 0.15 * many) << problem;
+  }
+}
+
+TEST(Mlpg, WritesTheSameSystemOnOneAndFourThreads) {
+  const ManufacturedPoisson<2, LinearField> problem(RightSide::neumann);
+  PointCloud<2> nodes;
+  RunOptions options;
+  const CaseKey key{"", "mls", "radius[factor=3.2]", "perturbed", "mlpg", "umfpack", 12};
+  StageTimes times;
+  std::vector<double> values[2];
+  for (int i = 0; i < 2; ++i) {
+    options.threads = i == 0 ? 1 : 4;
+    const Discretisation<2> scene = discretise<2>(problem, key, options, times);
+    const EquationList list =
+        make_form<2>("mlpg")->equations(problem, scene.cloud, scene.derivatives);
+    values[i] = assemble(list, scene.weights, scene.cloud.size(), 1).values;
+  }
+  omp_set_num_threads(1);
+  EXPECT_EQ(values[0], values[1]);
+}
+
+TEST(Mlpg, EvaluatesAtTheNodesOnlyWhatIsRead) {
+  const ManufacturedPoisson<2, LinearField> problem(RightSide::dirichlet);
+  StageTimes times;
+  for (const char* method : {"rbf_fd", "mls"}) {
+    const CaseKey key{"", method, "radius", "grid", "mlpg", "umfpack", 6};
+    const Discretisation<2> scene = discretise<2>(problem, key, RunOptions{}, times);
+    const bool interpolates = make_method<2>(method).made->promises().interpolates;
+    EXPECT_EQ(scene.derivatives.size(), interpolates ? 2 : 3) << method;
+    EXPECT_EQ(scene.sites.point_count(), 36 + 16 * 72) << method;  // 16 discs inside
+    for (int p = 0; p < scene.sites.point_count(); ++p) {
+      EXPECT_EQ(scene.weights.nodes(p).empty(), interpolates && p < 36) << method;
+    }
+  }
+}
+
+TEST(Mlpg, DeclinesWithAReason) {
+  const ManufacturedPoisson<2, LinearField> square(RightSide::dirichlet);
+  const auto form = make_form<2>("mlpg");
+  EXPECT_EQ(form->unsupported(square, *make_method<2>("mls").made), "");
+  EXPECT_NE(form->unsupported(square, *make_method<2>("mfpm").made).find("node at the centre"),
+            std::string::npos);
+  for (const char* problem : {"bvp_1d", "poisson_cube"}) {
+    const CaseKey key{problem, "mls", "radius", "grid", "mlpg", "umfpack", 5};
+    try {
+      run_steady_case(key, RunOptions{});
+      FAIL() << problem << " is not two-dimensional";
+    } catch (const SkipCase& skipped) {
+      EXPECT_NE(std::string(skipped.what()).find("2D only"), std::string::npos);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace strongpoint
