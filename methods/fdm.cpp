@@ -58,7 +58,7 @@ MethodEntry method_fdm() {
                 return std::make_unique<FiniteDifferences<Dim>>(
                     std::move(differences),
                     typename FiniteDifferences<Dim>::Traits{
-                        "fdm", {.reproduces = order}, {.block = true}, size, rule});
+                        "fdm", {.reproduces = order}, {.block = true, .centre = true}, size, rule});
               })};
 }
 

@@ -67,7 +67,7 @@ std::unique_ptr<Method<Dim>> make_pair_method(const Pair& pair) {
     return std::make_unique<ProjectionMethod<1>>(
         ProjectionFit<1>({Derivatives<1>::between_orders(1, 2)}, powers),
         ProjectionMethod<1>::Traits{
-            "mfpm", {.reproduces = 2}, {}, 3, default_lean_stencil(Dim, 2)});
+            "mfpm", {.reproduces = 2}, {.centre = true}, 3, default_lean_stencil(Dim, 2)});
   } else {
     return std::make_unique<AbsentMethod<Dim>>(
         "mfpm with two projection functions exists in 1D only; leave projection=monomials");

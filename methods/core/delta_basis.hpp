@@ -25,7 +25,7 @@ class DeltaBasis {
     std::vector<double> sines;            ///< (M, Dim, n) sin(n pi (s + 1)/2) at the nodes
     std::vector<double> factor;           ///< (order + 1, Dim, n) derivatives of phi at a point
     std::vector<double> right_hand_side;  ///< (n)
-    Lu matrix;                     ///< (n, n)
+    Lu matrix;                            ///< (n, n)
   };
 
   /// Highest order of a derivative that is offered.

@@ -131,7 +131,7 @@ typename GlobalInterpolation<Dim>::Whole GlobalInterpolation<Dim>::gather(
     throw CaseError(name_ + ": the local spacing is needed but the sites hold none");
   }
   if (sites.node_count() > most_nodes) {
-    throw CaseError(fmt::format(
+    throw SkipCase(fmt::format(
         "{}: {} nodes make a dense matrix that is too large; use at most {} nodes, or the local "
         "method rbf",
         name_, sites.node_count(), most_nodes));

@@ -34,8 +34,9 @@ class GlobalInterpolation final : public Method<Dim> {
   std::string unsupported(const Derivatives<Dim>& derivatives) const override {
     return kernel_.unsupported(derivatives);
   }
-  /// Weights of the points whose anchor is wanted. Throws CaseError for too many nodes, coincident
-  /// ones, and for a matrix so ill-conditioned that smooth nodal values are not given back.
+  /// Weights of the points whose anchor is wanted. Throws SkipCase for too many nodes and CaseError
+  /// for coincident ones, and for a matrix so ill-conditioned that smooth nodal values are not
+  /// given back.
   Weights weights(const Sites<Dim>& sites, const Stencils& stencils,
                   const Derivatives<Dim>& derivatives) const override;
   /// The condition of the one matrix, for every anchor.

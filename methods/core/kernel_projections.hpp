@@ -40,15 +40,14 @@ std::unique_ptr<Method<Dim>> make_kernel_projection_method(
     Promises promises) {
   Derivatives<Dim> terms;
   for (const Derivatives<Dim>& block : blocks) terms.merge(block);
+  ProjectionFit<Dim> fit(blocks, kernel_projections(kernel, terms));
+  const Needs needs{.volumes = true, .spacing = true, .centre = fit.needs_centre()};
   return std::make_unique<ProjectionMethod<Dim>>(
-      ProjectionFit<Dim>(blocks, kernel_projections(kernel, terms)),
-      typename ProjectionMethod<Dim>::Traits{std::move(name),
-                                             promises,
-                                             {.volumes = true, .spacing = true},
-                                             Dim == 1   ? 3
-                                             : Dim == 2 ? 9
-                                                        : 20,
-                                             kernel.default_stencil()});
+      std::move(fit), typename ProjectionMethod<Dim>::Traits{std::move(name), promises, needs,
+                                                             Dim == 1   ? 3
+                                                             : Dim == 2 ? 9
+                                                                        : 20,
+                                                             kernel.default_stencil()});
 }
 
 }  // namespace strongpoint

@@ -45,6 +45,8 @@ class ProjectionFit {
   /// Number of Taylor terms, of all blocks.
   int terms() const { return terms_.size(); }
   int needed_nodes() const;
+  /// True when some block takes the value from the node at the anchor.
+  bool needs_centre() const { return needs_centre_; }
   /// Coefficients of all Taylor terms, block by block.
   LocalOutcome factorise(const LocalStencil<Dim>& stencil, Workspace& work) const;
   /// Weights (derivatives, n) of the Taylor polynomial at `offset` from the anchor.

@@ -48,7 +48,7 @@ class RadialInterpolation {
   /// Buffers of one thread.
   struct Workspace {
     HouseholderQr polynomials;            ///< of the (n, m) polynomial matrix, to judge the nodes
-    Lu bordered;                   ///< (n + m, n + m)
+    Lu bordered;                          ///< (n + m, n + m)
     std::vector<double> functions;        ///< (order + 1, n) f and its derivatives by r^2
     std::vector<double> right_hand_side;  ///< (n + m)
     Derivatives<Dim> prepared;            ///< the derivatives that `radials` belongs to
