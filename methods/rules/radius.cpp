@@ -13,7 +13,7 @@ class Radius final : public StencilRule<Dim> {
                   const NeighbourSearch<Dim>& search) const override {
     const Points<Dim> queries = columns_of<Dim>(sites.anchors, anchors);
     const Eigen::VectorXd radii = factor_ * local_spacing<Dim>(queries, sites.nodes, search);
-    const Stencils inside = search.within(queries, {radii.data(), radii.data() + radii.size()});
+    Stencils inside = search.within(queries, {radii.data(), radii.data() + radii.size()});
     const int least = least_ > 0 ? least_ : method.stencil_size();
     std::vector<int> thin;  // queries with too few nodes inside
     for (int i = 0; i < inside.size(); ++i) {
