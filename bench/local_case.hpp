@@ -6,7 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "methods/core/error.hpp"
 #include "methods/core/registry.hpp"
+#include "methods/core/spacing.hpp"
 #include "problems/core/layout.hpp"
 #include "problems/core/voronoi.hpp"
 
@@ -44,6 +46,9 @@ template <int Dim>
 LocalCase<Dim> make_local_case(const std::string& method, const std::string& stencil) {
   LocalCase<Dim> made;
   made.method = make_method<Dim>(method).made;
+  if (!made.method->promises().local) {
+    throw SkipCase("the method uses every node of the cloud, for which these clouds are too large");
+  }
   auto rule = make_rule<Dim>(stencil.empty() ? made.method->default_stencil() : stencil);
   made.stencil = rule.spec;
   const UnitCube<Dim> domain;
@@ -56,6 +61,9 @@ LocalCase<Dim> make_local_case(const std::string& method, const std::string& ste
   const auto search = make_search<Dim>("auto", made.sites.nodes);
   if (made.method->needs().volumes) {
     made.sites.volumes = voronoi_volumes<Dim>(made.cloud, domain, *search);
+  }
+  if (made.method->needs().spacing) {
+    made.sites.spacing = local_spacing<Dim>(made.sites.anchors, made.sites.nodes, *search);
   }
   made.stencils = select_stencils<Dim>(*rule.made, made.sites, *made.method, *search);
   return made;
