@@ -309,6 +309,18 @@ TEST(MaxEntropy, TheBlendStartsWithTheNodeAtTheEnd) {
   }
 }
 
+TEST(MaxEntropy, TheBlendRefusesStencilsWithoutNodesBehindItsSplines) {
+  const TestScene<1> scene = make_scene<1>("max_ent[boundary=bspline]", "grid", 31, 1);
+  const auto search = make_search<1>("auto", scene.sites.nodes);
+  const Stencils pairs = search->nearest(scene.sites.anchors, 2, Ties::cut);
+  try {
+    scene.method->weights(scene.sites, pairs, {{0}});
+    ADD_FAILURE() << "two nodes carry the splines only";
+  } catch (const CaseError& error) {
+    EXPECT_NE(std::string(error.what()).find("at least 4"), std::string::npos) << error.what();
+  }
+}
+
 TEST(MaxEntropy, WhatDoesNotExistSaysWhy) {
   EXPECT_NE(make_method<3>("max_ent[order=2]").made->unsupported({}), "");
   EXPECT_NE(make_method<2>("max_ent[boundary=bspline]").made->unsupported({}), "");

@@ -86,7 +86,11 @@ class MaxEntropy {
 
   explicit MaxEntropy(const MaxEntropyOptions& options) : options_(options) {}
 
-  int needed_nodes() const { return options_.order == 1 ? Dim + 1 : moments + 1; }
+  /// As many as there are constraints, and two more for the B-splines of a blend.
+  int needed_nodes() const {
+    return (options_.order == 1 ? Dim + 1 : moments + 1) +
+           (options_.boundary == MaxEntropyBoundary::bspline ? 2 : 0);
+  }
   /// Checks that the nodes span the space; everything else depends on the point.
   LocalOutcome factorise(const LocalStencil<Dim>& stencil, Workspace& work) const;
   /// Weights (derivatives, n) at `offset` from the anchor, all in units of the stencil radius;
