@@ -261,6 +261,16 @@ TEST(ShapeFunctions, OfRkpmOnEqualVolumesAreThoseOfMls) {
   }
 }
 
+/// The default rule's factor is rounded to six digits, so that it may reach beyond the support.
+TEST(ShapeFunctions, KeepTheirLengthOnStencilsOfTheirOwnRule) {
+  const auto method = make_method<2>("mls[h=1.000003]").made;
+  ASSERT_EQ(method->default_stencil(), "radius[factor=2.00001]");
+  LocalStencil<2> stencil = unisolvent_stencil();
+  stencil.spacing = 1 / 2.000009;  // the farthest node is within the rule's radius
+  EXPECT_DOUBLE_EQ(kernel_of<MovingFit<2>>(*method).kernel().length(stencil),
+                   1.000003 * stencil.spacing);
+}
+
 TEST(ShapeFunctions, OfUnequalVolumesDiffer) {
   const TestScene<2> scene = make_scene<2>("rkpm", "perturbed", 10, 7);
   const Weights rkpm = scene.method->weights(scene.sites, scene.stencils, {{1, 0}});

@@ -37,7 +37,7 @@ class StencilKernel {
   }
 
  private:
-  static constexpr double tolerance = 1e-6;  // of the rule's factor as printed
+  static constexpr double tolerance = 1e-5;  // of the rule's factor, printed with six digits
   static constexpr double stretched = 1.1;   // as of the weights on residuals
   SmoothingKernel kernel_;
   double factor_;
