@@ -270,6 +270,15 @@ TEST(ContractMethods, GiveTheSameWeightsWhenFewerDerivativesAreAskedFor) {
   }
 }
 
+TEST(ContractMethods, GiveRowsWithoutWeightsWhenNoDerivativeIsAskedFor) {
+  for (const std::string& spec : method_specs(2)) {
+    const TestScene<2> scene = make_scene<2>(spec, "perturbed", 12, 5);
+    const Weights none = scene.method->weights(scene.sites, scene.stencils, {});
+    EXPECT_EQ(none.size(), scene.sites.node_count()) << spec;
+    EXPECT_TRUE(none.values.empty()) << spec;
+  }
+}
+
 TEST(ContractMethods, DoNotDependOnNodesOutsideTheStencil) {
   for (const std::string& spec : method_specs(2)) {
     TestScene<2> scene = make_scene<2>(spec, "perturbed", 12, 144);  // the corner (0, 0) only

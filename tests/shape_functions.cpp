@@ -261,6 +261,20 @@ TEST(ShapeFunctions, OfRkpmOnEqualVolumesAreThoseOfMls) {
   }
 }
 
+TEST(ShapeFunctions, WhereTheWindowSeesTooFewNodesAreSingular) {
+  const TestScene<2> scene = make_scene<2>("mls", "perturbed", 10, 7);
+  const MovingFit<2>& fit = kernel_of<MovingFit<2>>(*scene.method);
+  const LocalStencil<2> stencil = stencil_of(scene, 0);
+  MovingFit<2>::Workspace work;
+  ASSERT_EQ(fit.factorise(stencil, work), LocalOutcome::ok);
+  Eigen::MatrixXd row(1, stencil.size);
+  for (int repeat = 0; repeat < 2; ++repeat) {
+    EXPECT_EQ(
+        fit.evaluate(stencil, work, Point<2>(-1.5, 0), {{0, 0}}, {row.data(), 1, stencil.size}),
+        LocalOutcome::singular);
+  }
+}
+
 /// The default rule's factor is rounded to six digits, so that it may reach beyond the support.
 TEST(ShapeFunctions, KeepTheirLengthOnStencilsOfTheirOwnRule) {
   const auto method = make_method<2>("mls[h=1.000003]").made;

@@ -48,9 +48,10 @@ template <int Dim>
 LocalOutcome MovingFit<Dim>::factorise_at(const LocalStencil<Dim>& stencil,
                                           const Point<Dim>& offset, Workspace& work) const {
   evaluate_windows(stencil, offset, work.squared);
-  work.place = offset;
+  work.place.setConstant(std::numeric_limits<double>::quiet_NaN());  // equal to no other
   const LocalOutcome outcome = basis_.factorise(stencil, work.squared, work.qr);
   if (outcome != LocalOutcome::ok) return outcome;
+  work.place = offset;
   const int m = basis_.terms();
   work.basis.resize(static_cast<std::size_t>(m) * stencil.size);
   for (int j = 0; j < stencil.size; ++j) {
@@ -73,9 +74,8 @@ void MovingFit<Dim>::prepare(const Derivatives<Dim>& derivatives, Workspace& wor
   work.known = {};
   work.steps.clear();
   const auto is_needed = [&](const MultiIndex<Dim>& beta) {
-    if (differentiation_ == Differentiation::diffuse) {
-      return order_of<Dim>(beta) == 0 || derivatives.contains(beta);
-    }
+    if (order_of<Dim>(beta) == 0) return true;  // step 0 is the value, asked for or not
+    if (differentiation_ == Differentiation::diffuse) return derivatives.contains(beta);
     return std::any_of(derivatives.begin(), derivatives.end(),
                        [&](const MultiIndex<Dim>& alpha) { return is_within<Dim>(beta, alpha); });
   };
@@ -146,15 +146,14 @@ void MovingFit<Dim>::differentiate_functions(const LocalStencil<Dim>& stencil,
 }
 
 template <int Dim>
-void MovingFit<Dim>::evaluate(const LocalStencil<Dim>& stencil, Workspace& work,
-                              const Point<Dim>& offset, const Derivatives<Dim>& derivatives,
-                              Eigen::Map<Eigen::MatrixXd> weights) const {
+LocalOutcome MovingFit<Dim>::evaluate(const LocalStencil<Dim>& stencil, Workspace& work,
+                                      const Point<Dim>& offset, const Derivatives<Dim>& derivatives,
+                                      Eigen::Map<Eigen::MatrixXd> weights) const {
   const int n = stencil.size;
   prepare(derivatives, work);
-  if (work.place != offset && factorise_at(stencil, offset, work) != LocalOutcome::ok) {
-    weights.setConstant(std::numeric_limits<double>::quiet_NaN());
-    work.place.setConstant(std::numeric_limits<double>::quiet_NaN());
-    return;
+  if (work.place != offset) {
+    const LocalOutcome outcome = factorise_at(stencil, offset, work);
+    if (outcome != LocalOutcome::ok) return outcome;
   }
   differentiate_windows(stencil, offset, work);
   differentiate_functions(stencil, offset, work);
@@ -167,6 +166,7 @@ void MovingFit<Dim>::evaluate(const LocalStencil<Dim>& stencil, Workspace& work,
       for (int j = 0; j < n; ++j) weights(d, j) += product.binomial * window[j] * function[j];
     }
   }
+  return LocalOutcome::ok;
 }
 
 template <int Dim>

@@ -50,7 +50,7 @@ class MovingFit {
   /// Buffers of one thread.
   struct Workspace {
     HouseholderQr qr;                       ///< of the monomials under the window at `place`
-    Point<Dim> place = Point<Dim>::Zero();  ///< offset from the anchor that `qr` belongs to
+    Point<Dim> place = Point<Dim>::Zero();  ///< offset of `qr` from the anchor, NaN without one
     Derivatives<Dim> prepared;              ///< the derivatives that `steps` belongs to
     Derivatives<Dim> known;                 ///< alpha of each step, none before the ones it takes
     std::vector<Step> steps;                ///< one for each of `known`
@@ -75,10 +75,11 @@ class MovingFit {
   int needed_nodes() const { return basis_.terms(); }
   /// Factorises the fit at the anchor.
   LocalOutcome factorise(const LocalStencil<Dim>& stencil, Workspace& work) const;
-  /// Weights (derivatives, n) at `offset` from the anchor, all in units of the stencil radius; NaN
-  /// where the window sees too few nodes there.
-  void evaluate(const LocalStencil<Dim>& stencil, Workspace& work, const Point<Dim>& offset,
-                const Derivatives<Dim>& derivatives, Eigen::Map<Eigen::MatrixXd> weights) const;
+  /// Weights (derivatives, n) at `offset` from the anchor, all in units of the stencil radius;
+  /// `singular` where the window sees too few nodes there.
+  LocalOutcome evaluate(const LocalStencil<Dim>& stencil, Workspace& work, const Point<Dim>& offset,
+                        const Derivatives<Dim>& derivatives,
+                        Eigen::Map<Eigen::MatrixXd> weights) const;
   /// The matrix A at the anchor, its columns Taylor terms (with their factorials).
   Eigen::MatrixXd local_matrix(const LocalStencil<Dim>& stencil, Scaling scaling) const;
   /// Full derivatives as far as the kernel is smooth, diffuse ones up to the degree.
