@@ -3,11 +3,6 @@
 #include <cmath>
 
 namespace strongpoint {
-namespace {
-
-double factorial_of(int n) { return std::tgamma(n + 1.0); }
-
-}  // namespace
 
 template <int Dim>
 RadialDerivative<Dim>::RadialDerivative(const MultiIndex<Dim>& alpha) {
@@ -16,12 +11,12 @@ RadialDerivative<Dim>::RadialDerivative(const MultiIndex<Dim>& alpha) {
   while (true) {
     Term term{1, {}, 0};
     for (int c = 0; c < Dim; ++c) {
-      const int left = alpha[c] - 2 * j[c];
-      term.coefficient *=
-          factorial_of(alpha[c]) / (factorial_of(j[c]) * factorial_of(left)) * std::pow(2.0, left);
-      term.exponents[c] = left;
+      term.exponents[c] = alpha[c] - 2 * j[c];
       term.outer += alpha[c] - j[c];
     }
+    term.coefficient = factorial<Dim>(alpha) /
+                       (factorial<Dim>(j) * factorial<Dim>(term.exponents)) *
+                       std::pow(2.0, order_of<Dim>(term.exponents));
     terms_.push_back(term);
     int c = 0;
     while (c < Dim && 2 * (j[c] + 1) > alpha[c]) j[c++] = 0;
