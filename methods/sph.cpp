@@ -79,9 +79,7 @@ MethodEntry method_sph() {
                     typename Made::Traits{"sph",
                                           {.reproduces = -1, .interpolates = false},
                                           {.volumes = true, .spacing = true},
-                                          Dim == 1   ? 3
-                                          : Dim == 2 ? 9
-                                                     : 20,
+                                          StencilKernel<Dim>::least_nodes,
                                           kernel.default_stencil()});
               })};
 }

@@ -32,8 +32,7 @@ Projections<Dim> kernel_projections(const StencilKernel<Dim>& kernel,
 }
 
 /// Makes a method that projects the Taylor series up to order 2, in blocks, on a smoothing kernel
-/// and its derivatives of the same orders. `name` is used in messages. Stencils hold at least as
-/// many nodes as those of a lean Taylor fit of order 2.
+/// and its derivatives of the same orders. `name` is used in messages.
 template <int Dim>
 std::unique_ptr<Method<Dim>> make_kernel_projection_method(
     std::string name, const std::vector<Derivatives<Dim>>& blocks, const StencilKernel<Dim>& kernel,
@@ -44,9 +43,7 @@ std::unique_ptr<Method<Dim>> make_kernel_projection_method(
   const Needs needs{.volumes = true, .spacing = true, .centre = fit.needs_centre()};
   return std::make_unique<ProjectionMethod<Dim>>(
       std::move(fit), typename ProjectionMethod<Dim>::Traits{std::move(name), promises, needs,
-                                                             Dim == 1   ? 3
-                                                             : Dim == 2 ? 9
-                                                                        : 20,
+                                                             StencilKernel<Dim>::least_nodes,
                                                              kernel.default_stencil()});
 }
 

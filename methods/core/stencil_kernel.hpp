@@ -23,6 +23,9 @@ class StencilKernel {
         factor_(options.has("h") ? options.number("h", 0.5, 20)
                                  : default_support / kernel_.support()) {}
 
+  /// Nodes that a stencil holds at least, as many as that of a lean Taylor fit of order 2.
+  static constexpr int least_nodes = Dim == 1 ? 3 : Dim == 2 ? 9 : 20;
+
   const SmoothingKernel& kernel() const { return kernel_; }
   /// Smoothing length in units of the stencil radius. It stretches where the stencil reaches beyond
   /// the support, so that no node is without a say.
