@@ -14,8 +14,6 @@
 namespace strongpoint {
 namespace {
 
-/// What is left of a column of B, relative to its largest entry, below which it is singular.
-constexpr double rank_tolerance = 1e-11;
 /// Weights on integers are rational with small denominators; anything below this is a zero.
 constexpr double smallest_weight = 1e-13;
 /// Roundings that an entry of B may carry: of each coordinate two, of each product as many.

@@ -5,6 +5,11 @@
 
 namespace strongpoint {
 
+/// What is left of a column of a local system, relative to the column, when it is singular: the
+/// nodes lie on the zero set of a polynomial, or the projections cannot tell the terms apart. About
+/// five digits of the weights are left above it.
+inline constexpr double rank_tolerance = 1e-11;
+
 /// Householder QR of a tall dense matrix whose storage is reused from one stencil to the next.
 class HouseholderQr {
  public:

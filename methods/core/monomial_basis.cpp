@@ -5,12 +5,6 @@
 #include "methods/core/monomial.hpp"
 
 namespace strongpoint {
-namespace {
-
-/// A column this close to the span of the others makes the fit singular.
-constexpr double rank_tolerance = 1e-11;
-
-}  // namespace
 
 template <int Dim>
 MonomialBasis<Dim>::MonomialBasis(int degree)

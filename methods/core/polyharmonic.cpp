@@ -11,9 +11,6 @@
 namespace strongpoint {
 namespace {
 
-/// A polynomial column this close to the span of the others means that the nodes lie on its zero
-/// set.
-constexpr double rank_tolerance = 1e-11;
 /// Smallest pivot over diagonal entry of the projected kernel matrix that is trusted as definite.
 constexpr double pivot_tolerance = 1e-14;
 

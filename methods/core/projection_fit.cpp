@@ -9,13 +9,6 @@
 #include "methods/core/monomial.hpp"
 
 namespace strongpoint {
-namespace {
-
-/// What is left of a column of the local matrix, relative to its largest entry, below which the
-/// projections cannot tell the terms apart.
-constexpr double rank_tolerance = 1e-11;
-
-}  // namespace
 
 template <int Dim>
 ProjectionFit<Dim>::ProjectionFit(const std::vector<Derivatives<Dim>>& blocks,

@@ -11,9 +11,6 @@
 namespace strongpoint {
 namespace {
 
-/// A polynomial column this close to the span of the others means that the nodes lie on its zero
-/// set.
-constexpr double rank_tolerance = 1e-11;
 /// Smallest pivot over the largest entry that is more than round-off.
 constexpr double pivot_tolerance = 1e-15;
 /// The shape parameter over the local spacing when nothing is said. A choice, the same for all

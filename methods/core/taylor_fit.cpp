@@ -15,8 +15,6 @@ namespace {
 /// Smallest pivot over diagonal of the normal equations that still leaves about eleven digits;
 /// below it the weighted Vandermonde matrix is factorised instead.
 constexpr double pivot_tolerance = 1e-4;
-/// A column this close to the span of the others makes the fit singular.
-constexpr double rank_tolerance = 1e-11;
 /// From this order on the normal equations always lose too many digits.
 constexpr int first_order_by_qr = 5;
 
