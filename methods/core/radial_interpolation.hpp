@@ -41,7 +41,7 @@ class RadialShape {
 /// weights w solve [Phi P; P^T 0] [w; .] = [L phi(x - x_j); L p] for each derivative L.
 /// Source: thesis (1.30)-(1.36), where (1.32) is sum_h a_h B_h(x_i) + sum_k b_k P_k(x_i) = u_i, the
 /// constraints (1.33) sum over the nodes and (1.36) keeps the columns of the nodes. Distances are
-/// taken in units of the stencil radius, which matters to r^power log r without polynomials only.
+/// taken in units of the stencil radius, which matters to r^power log r below degree power/2 only.
 template <int Dim>
 class RadialInterpolation {
  public:
