@@ -7,22 +7,18 @@
 namespace strongpoint {
 
 template <int Dim>
-MonomialBasis<Dim>::MonomialBasis(int degree)
-    : degree_(degree), monomials_(Derivatives<Dim>::between_orders(0, degree)) {
+MonomialBasis<Dim>::MonomialBasis(int least, int degree)
+    : has_constant_(least == 0),
+      degree_(degree),
+      monomials_(Derivatives<Dim>::between_orders(least, degree)) {
   for (const MultiIndex<Dim>& alpha : monomials_) {
     int axis = 0;
     while (axis < Dim && alpha[axis] == 0) ++axis;
     MultiIndex<Dim> lower = alpha;
     if (axis < Dim) --lower[axis];
     axis_.push_back(axis);
-    parent_.push_back(monomials_.index(lower));
+    parent_.push_back(monomials_.contains(lower) ? monomials_.index(lower) : -1);
   }
-}
-
-template <int Dim>
-void MonomialBasis<Dim>::evaluate(const double* z, double* result) const {
-  result[0] = 1;
-  for (int a = 1; a < terms(); ++a) result[a] = result[parent_[a]] * z[axis_[a]];
 }
 
 template <int Dim>
@@ -43,10 +39,12 @@ LocalOutcome MonomialBasis<Dim>::factorise(const LocalStencil<Dim>& stencil,
   for (int j = 0; j < stencil.size; ++j) {
     const double* z = stencil.z.data() + static_cast<std::ptrdiff_t>(j) * Dim;
     double* row = matrix + j;  // monomials of a node lie one column apart
-    row[0] = std::sqrt(squared[j]);
-    for (int a = 1; a < m; ++a) {
+    const double weight = std::sqrt(squared[j]);
+    if (has_constant_) row[0] = weight;
+    for (int a = has_constant_ ? 1 : 0; a < m; ++a) {
       row[static_cast<std::ptrdiff_t>(a) * stencil.size] =
-          row[static_cast<std::ptrdiff_t>(parent_[a]) * stencil.size] * z[axis_[a]];
+          (parent_[a] < 0 ? weight : row[static_cast<std::ptrdiff_t>(parent_[a]) * stencil.size]) *
+          z[axis_[a]];
     }
   }
   return qr.factorise(rank_tolerance) ? LocalOutcome::ok : LocalOutcome::singular;

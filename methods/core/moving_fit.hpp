@@ -64,7 +64,7 @@ class MovingFit {
 
   MovingFit(int degree, StencilKernel<Dim> kernel, Differentiation differentiation,
             NodeMeasure measure)
-      : basis_(degree),
+      : basis_(0, degree),
         kernel_(std::move(kernel)),
         differentiation_(differentiation),
         measure_(measure) {}

@@ -9,7 +9,7 @@ namespace strongpoint {
 
 template <int Dim>
 PolynomialFit<Dim>::PolynomialFit(int degree, std::shared_ptr<const WeightFunction> weight)
-    : basis_(degree), weight_(std::move(weight)) {
+    : basis_(0, degree), weight_(std::move(weight)) {
   if (weight_->uses_volumes()) return;
   const double at_anchor = 0;
   double squared = 0;

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "methods/core/error.hpp"
-#include "methods/core/monomial.hpp"
 #include "methods/core/stencil_size.hpp"
 
 namespace strongpoint {
@@ -22,27 +21,10 @@ constexpr int first_order_by_qr = 5;
 
 template <int Dim>
 TaylorFit<Dim>::TaylorFit(int order, std::shared_ptr<const WeightFunction> weight)
-    : order_(order),
-      weight_(std::move(weight)),
-      monomials_(Derivatives<Dim>::between_orders(1, order)) {
+    : basis_(1, order), weight_(std::move(weight)) {
   if (order < 1 || order > 8) {
     throw UsageError(
         fmt::format("a Taylor fit of order {} is not offered; allowed: 1 to 8", order));
-  }
-  for (const MultiIndex<Dim>& alpha : monomials_) {
-    int axis = 0;
-    while (alpha[axis] == 0) ++axis;
-    MultiIndex<Dim> lower = alpha;
-    --lower[axis];
-    axis_.push_back(axis);
-    parent_.push_back(order_of<Dim>(lower) == 0 ? -1 : monomials_.index(lower));
-  }
-}
-
-template <int Dim>
-void TaylorFit<Dim>::evaluate_monomials(const double* z, double* result) const {
-  for (int a = 0; a < unknowns(); ++a) {
-    result[a] = (parent_[a] < 0 ? 1.0 : result[parent_[a]]) * z[axis_[a]];
   }
 }
 
@@ -96,10 +78,10 @@ LocalOutcome TaylorFit<Dim>::factorise(const LocalStencil<Dim>& stencil, Workspa
   evaluate_weights(stencil, work.squared);
   work.basis.resize(static_cast<std::size_t>(m) * stencil.size);
   for (int j = 0; j < stencil.size; ++j) {
-    evaluate_monomials(stencil.z.data() + static_cast<std::ptrdiff_t>(j) * Dim,
-                       work.basis.data() + static_cast<std::ptrdiff_t>(j) * m);
+    basis_.evaluate(stencil.z.data() + static_cast<std::ptrdiff_t>(j) * Dim,
+                    work.basis.data() + static_cast<std::ptrdiff_t>(j) * m);
   }
-  work.by_qr = order_ >= first_order_by_qr || !factorise_normal_equations(stencil, work);
+  work.by_qr = order() >= first_order_by_qr || !factorise_normal_equations(stencil, work);
   if (work.by_qr && !factorise_qr(stencil, work)) return LocalOutcome::singular;
   return LocalOutcome::ok;
 }
@@ -113,8 +95,7 @@ void TaylorFit<Dim>::evaluate(const LocalStencil<Dim>& stencil, Workspace& work,
   for (int d = 0; d < derivatives.size(); ++d) {
     std::vector<double>& v = work.right_hand_side;
     std::fill(v.begin(), v.end(), 0.0);
-    for (int a = 0; a < m; ++a)
-      v[a] = monomial_derivative<Dim>(monomials_[a], derivatives[d], offset);
+    basis_.differentiate(offset, derivatives[d], v.data());
     if (work.by_qr) {
       work.qr.solve_transposed_r({v.data(), v.data() + m});
       work.qr.apply_q({v.data(), v.data() + stencil.size});
@@ -141,29 +122,17 @@ void TaylorFit<Dim>::evaluate(const LocalStencil<Dim>& stencil, Workspace& work,
 template <int Dim>
 Eigen::MatrixXd TaylorFit<Dim>::local_matrix(const LocalStencil<Dim>& stencil,
                                              Scaling scaling) const {
-  const int m = unknowns();
   if (stencil.centre < 0 || stencil.size < needed_nodes()) return Eigen::MatrixXd::Zero(1, 1);
   std::vector<double> squared;
   evaluate_weights(stencil, squared);
-  Eigen::VectorXd basis(m);
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(m, m);
-  for (int j = 0; j < stencil.size; ++j) {
-    evaluate_monomials(stencil.z.data() + static_cast<std::ptrdiff_t>(j) * Dim, basis.data());
-    matrix.noalias() += squared[j] * basis * basis.transpose();
-  }
-  for (int a = 0; a < m; ++a) {
-    double column = 1 / factorial<Dim>(monomials_[a]);
-    if (scaling == Scaling::row) column *= std::pow(stencil.radius, order_of<Dim>(monomials_[a]));
-    matrix.col(a) *= column;
-  }
-  return matrix;
+  return basis_.moments(stencil, squared, scaling);
 }
 
 template <int Dim>
 std::string TaylorFit<Dim>::unsupported(const Derivatives<Dim>& derivatives) const {
   for (const MultiIndex<Dim>& alpha : derivatives) {
-    if (order_of<Dim>(alpha) > order_) {
-      return fmt::format("a Taylor fit of order {} cannot give {}; ask for order={}", order_,
+    if (order_of<Dim>(alpha) > order()) {
+      return fmt::format("a Taylor fit of order {} cannot give {}; ask for order={}", order(),
                          name_of<Dim>(alpha), order_of<Dim>(alpha));
     }
   }

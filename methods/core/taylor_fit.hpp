@@ -9,6 +9,7 @@
 #include "methods/core/derivatives.hpp"
 #include "methods/core/local_method.hpp"
 #include "methods/core/local_solvers.hpp"
+#include "methods/core/monomial_basis.hpp"
 #include "methods/core/stencil_size.hpp"
 #include "methods/core/weight_function.hpp"
 
@@ -35,10 +36,10 @@ class TaylorFit {
   /// Throws UsageError when the order is not within 1 to 8.
   TaylorFit(int order, std::shared_ptr<const WeightFunction> weight);
 
-  int order() const { return order_; }
-  int unknowns() const { return monomials_.size(); }
+  int order() const { return basis_.degree(); }
+  int unknowns() const { return basis_.terms(); }
   int needed_nodes() const { return unknowns() + 1; }
-  const Derivatives<Dim>& monomials() const { return monomials_; }
+  const Derivatives<Dim>& monomials() const { return basis_.monomials(); }
   /// Factorises the normal equations, or the weighted Vandermonde matrix where those lose too much.
   LocalOutcome factorise(const LocalStencil<Dim>& stencil, Workspace& work) const;
   /// Weights (derivatives, n) at `offset` from the centre, all in units of the stencil radius.
@@ -50,17 +51,13 @@ class TaylorFit {
   /// Derivatives up to the order of the fit can be given.
   std::string unsupported(const Derivatives<Dim>& derivatives) const;
   /// Fills the monomials at a position: result[a] = z^a.
-  void evaluate_monomials(const double* z, double* result) const;
+  void evaluate_monomials(const double* z, double* result) const { basis_.evaluate(z, result); }
   /// Fills T^2 at the nodes, zero at the centre.
   void evaluate_weights(const LocalStencil<Dim>& stencil, std::vector<double>& squared) const;
 
  private:
-  int order_;
+  MonomialBasis<Dim> basis_;  ///< without the constant
   std::shared_ptr<const WeightFunction> weight_;
-  Derivatives<Dim> monomials_;
-  std::vector<int>
-      parent_;  ///< monomial a = monomial parent_[a] * z[axis_[a]], parent -1 is the constant
-  std::vector<int> axis_;
 
   bool factorise_normal_equations(const LocalStencil<Dim>& stencil, Workspace& work) const;
   bool factorise_qr(const LocalStencil<Dim>& stencil, Workspace& work) const;
