@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "methods/core/monomial.hpp"
-
 namespace strongpoint {
 
 template <int Dim>

@@ -9,6 +9,7 @@
 #include "methods/core/local_solvers.hpp"
 #include "methods/core/local_stencil.hpp"
 #include "methods/core/method.hpp"
+#include "methods/core/monomial.hpp"
 
 namespace strongpoint {
 
@@ -50,6 +51,20 @@ class MonomialBasis {
                              ///< constant; parent -1 is a constant that is left out
   std::vector<int> axis_;
 };
+
+/// QR of the matrix of monomials at the nodes of a stencil, (n, m), as interpolations with
+/// polynomials need it. False when the nodes lie on the zero set of a polynomial.
+template <int Dim>
+bool factorise_polynomials(const LocalStencil<Dim>& stencil, const Derivatives<Dim>& monomials,
+                           HouseholderQr& qr) {
+  double* next = qr.prepare(stencil.size, monomials.size());
+  for (const MultiIndex<Dim>& alpha : monomials) {
+    for (int j = 0; j < stencil.size; ++j) {
+      *next++ = monomial_derivative<Dim>(alpha, MultiIndex<Dim>{}, stencil.node(j));
+    }
+  }
+  return qr.factorise(rank_tolerance);
+}
 
 extern template class MonomialBasis<1>;
 extern template class MonomialBasis<2>;

@@ -7,6 +7,7 @@
 
 #include "methods/core/error.hpp"
 #include "methods/core/monomial.hpp"
+#include "methods/core/monomial_basis.hpp"
 
 namespace strongpoint {
 namespace {
@@ -36,14 +37,9 @@ LocalOutcome PolyharmonicFit<Dim>::factorise(const LocalStencil<Dim>& stencil,
   const int n = stencil.size;
   const int m = terms();
   if (n < m) return LocalOutcome::too_small;
-  double* polynomials = work.polynomials.prepare(n, m);
-  for (int a = 0; a < m; ++a) {
-    for (int j = 0; j < n; ++j) {
-      polynomials[static_cast<std::ptrdiff_t>(a) * n + j] =
-          monomial_derivative<Dim>(monomials_[a], MultiIndex<Dim>{}, stencil.node(j));
-    }
+  if (!factorise_polynomials<Dim>(stencil, monomials_, work.polynomials)) {
+    return LocalOutcome::singular;
   }
-  if (!work.polynomials.factorise(rank_tolerance)) return LocalOutcome::singular;
   work.kernel.resize(static_cast<std::size_t>(n) * n);
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j <= i; ++j) {

@@ -7,6 +7,7 @@
 
 #include "methods/core/error.hpp"
 #include "methods/core/monomial.hpp"
+#include "methods/core/monomial_basis.hpp"
 
 namespace strongpoint {
 namespace {
@@ -84,14 +85,9 @@ LocalOutcome RadialInterpolation<Dim>::factorise(const LocalStencil<Dim>& stenci
   const int n = stencil.size;
   const int m = terms();
   if (n < needed_nodes()) return LocalOutcome::too_small;
-  double* polynomials = work.polynomials.prepare(n, m);
-  for (int a = 0; a < m; ++a) {
-    for (int j = 0; j < n; ++j) {
-      polynomials[static_cast<std::ptrdiff_t>(a) * n + j] =
-          monomial_derivative<Dim>(monomials_[a], MultiIndex<Dim>{}, stencil.node(j));
-    }
+  if (m > 0 && !factorise_polynomials<Dim>(stencil, monomials_, work.polynomials)) {
+    return LocalOutcome::singular;
   }
-  if (!work.polynomials.factorise(rank_tolerance)) return LocalOutcome::singular;
   fill_matrix(stencil, work.bordered.prepare(n + m));
   return work.bordered.factorise(pivot_tolerance) ? LocalOutcome::ok
          : function_.has_shape()                  ? LocalOutcome::flat
