@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "studies/support/derivative_errors.hpp"
 #include "studies/support/stencil_quality.hpp"
 #include "studies/support/study.hpp"
 
@@ -46,10 +47,21 @@ std::string default_stencils(const Options& extra) {
   return fmt::format("{}{}", axis, fmt::join(plain, ","));
 }
 
+/// What the errors of a case are called: of the solution of a steady problem, of each derivative of
+/// a field. Throws SkipCase for other problems.
+std::vector<std::string> error_names(const CaseKey& key) {
+  return with_problem<Problem>(
+      key.problem, "registered", [&]<int Dim>(const Problem<Dim>& problem) {
+        const auto* field = dynamic_cast<const FieldProblem<Dim>*>(&problem);
+        if (field == nullptr) return steady_quantities(key);
+        return derivative_error_names<Dim>(*field, *make_method<Dim>(key.method).made);
+      });
+}
+
 std::vector<std::string> quantities(const CaseKey& key, const Options&) {
   std::vector<std::string> names{"size_min",         "size_mean",     "size_max",
                                  "condition_median", "condition_max", "over_limit"};
-  const std::vector<std::string> errors = steady_quantities(key);
+  const std::vector<std::string> errors = error_names(key);
   names.insert(names.end(), errors.begin(), errors.end());
   return names;
 }
@@ -112,25 +124,63 @@ Quantity over_limit(const Discretisation<Dim>& scene, const Method<Dim>& method,
   return quantity;
 }
 
+/// Puts what is known of the stencils before the errors.
 template <int Dim>
-CaseResult run(const SteadyProblem<Dim>& problem, const CaseKey& key, const RunOptions& options) {
-  CaseResult result = run_steady_case(key, options);
-  StageTimes untold;
-  const Discretisation<Dim> scene = discretise<Dim>(problem, key, options, untold, Upto::stencils);
+void prepend_stencils(const Discretisation<Dim>& scene, const CaseKey& key, CaseResult& result) {
   const std::unique_ptr<Method<Dim>> method = make_method<Dim>(key.method).made;
   std::vector<Quantity> stencils;
   append_sizes<Dim>(scene, *method, stencils);
   append_conditions<Dim>(scene, *method, stencils);
   stencils.push_back(over_limit<Dim>(scene, *method, key.stencil));
   result.quantities.insert(result.quantities.begin(), stencils.begin(), stencils.end());
+}
+
+/// The stencils that the equations of a steady problem read, and the error of its solution.
+template <int Dim>
+CaseResult run(const SteadyProblem<Dim>& problem, const CaseKey& key, const RunOptions& options) {
+  CaseResult result = run_steady_case(key, options);
+  StageTimes untold;
+  const Discretisation<Dim> scene = discretise<Dim>(problem, key, options, untold, Upto::stencils);
+  prepend_stencils<Dim>(scene, key, result);
   return result;
+}
+
+/// The stencils at every node, and the errors of the derivatives of a field.
+template <int Dim>
+CaseResult run(const FieldProblem<Dim>& problem, const CaseKey& key, const RunOptions& options) {
+  CaseResult result;
+  Discretisation<Dim> scene;
+  for (int run = 0; run < options.repeat; ++run) {
+    StageTimes times;
+    reset_peak_memory();
+    scene = discretise_field<Dim>(problem, key, options, times);
+    times.peak_mb = peak_memory_mb();
+    result.times = run == 0 ? times : fastest(result.times, times);
+  }
+  result.quantities = derivative_errors<Dim>(problem, key, options, scene);
+  result.nodes = scene.cloud.size();
+  result.spacing = scene.cloud.spacing();
+  prepend_stencils<Dim>(scene, key, result);
+  return result;
+}
+
+CaseResult run_case(const CaseKey& key, const RunOptions& options, const Options&) {
+  return with_problem<Problem>(
+      key.problem, "registered", [&]<int Dim>(const Problem<Dim>& problem) {
+        if (const auto* field = dynamic_cast<const FieldProblem<Dim>*>(&problem)) {
+          return run<Dim>(*field, key, options);
+        }
+        return with_problem<SteadyProblem>(
+            key.problem, "steady", [&](const auto& steady) { return run(steady, key, options); });
+      });
 }
 
 }  // namespace
 }  // namespace strongpoint
 
 /// Stencil rules against each other on the same cloud: how large and how well conditioned the
-/// stencils are that the equations read, what they cost, and the error that comes of them.
+/// stencils are that are read, what they cost, and the error that comes of them: of the solution of
+/// a steady problem, or of each derivative of a field.
 int main(int argc, char** argv) {
   using namespace strongpoint;  // NOLINT(google-build-using-namespace)
   Study study;
@@ -148,11 +198,6 @@ int main(int argc, char** argv) {
       {"norm", "two", "their norms of the condition: two, one or both of them"}};
   study.default_stencils = default_stencils;
   study.quantities = quantities;
-  study.run = [](const CaseKey& key, const RunOptions& options, const Options&) {
-    return with_problem<SteadyProblem>(key.problem, "steady",
-                                       [&]<int Dim>(const SteadyProblem<Dim>& problem) {
-                                         return run<Dim>(problem, key, options);
-                                       });
-  };
+  study.run = run_case;
   return run_study(argc, argv, study);
 }

@@ -94,6 +94,21 @@ class Selection(StudyTest):
                 self.assertEqual((row["status"], row["rate"]), ("ok", ""))
                 self.assertGreaterEqual(float(row["t_total"]), float(row["t_stencils"]))
 
+    def test_a_field_is_judged_at_every_node_by_the_errors_of_local_accuracy(self):
+        arguments = [*GRID, "--levels", "9", "--csv", "-"]
+        result = run("selection", *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        rows = rows_of(result.stdout)
+        errors = rows_of(run("local_accuracy", *arguments).stdout)
+        self.assertEqual([r["quantity"] for r in rows], SIZES + [r["quantity"] for r in errors])
+        self.assertEqual([r["value"] for r in rows[len(SIZES):]], [r["value"] for r in errors])
+        conditions = rows_of(run("conditioning", *arguments).stdout)
+        self.assertEqual(rows[SIZES.index("condition_max")]["value"],
+                         next(r["value"] for r in conditions if r["quantity"] == "condition_two_max"))
+        for row in rows:
+            self.assertGreater(float(row["t_weights"]), 0)
+            self.assertEqual((row["t_assemble"], row["t_solve"]), ("0", "0"))
+
     def test_growing_rules_are_expanded_over_limits_scalings_and_norms(self):
         result = run("selection", *POISSON, "--cond-max", "1e3,4e8", "--scaling", "both,row", "--norm",
                      "two,one")
