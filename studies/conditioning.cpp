@@ -206,6 +206,7 @@ int main(int argc, char** argv) {
                           "both | row: sides of the local matrix scaled by the stencil radius "
                           "before its condition is judged; by rows, quantities are called "
                           "condition_two_row_max and so on"}};
+  study.check_options = [](const Options& extra) { scaling_of(extra); };
   study.quantities = quantities;
   study.run = [](const CaseKey& key, const RunOptions& options, const Options& extra) {
     return with_problem<Problem>(key.problem, "registered",

@@ -8,7 +8,10 @@
 namespace strongpoint {
 namespace {
 
-std::vector<std::string> quantities(const CaseKey& key, const Options&) {
+int seeds_of(const Options& extra) { return extra.integer("seeds", 1, 1000); }
+
+std::vector<std::string> quantities(const CaseKey& key, const Options& extra) {
+  with_seeds(key.cloud, 1, seeds_of(extra));  // refuses seeds that are too large
   return with_problem<FieldProblem>(
       key.problem, "field", [&]<int Dim>(const FieldProblem<Dim>& problem) {
         return derivative_error_names<Dim>(problem, *make_method<Dim>(key.method).made);
@@ -24,8 +27,6 @@ CaseResult run(const FieldProblem<Dim>& problem, const CaseKey& key, const RunOp
   result.spacing = scene.cloud.spacing();
   return result;
 }
-
-int seeds_of(const Options& extra) { return extra.integer("seeds", 1, 1000); }
 
 /// The case on clouds of several seeds; what cannot be computed on one of them is told, and ends
 /// the case only when it cannot be computed on any.
@@ -74,6 +75,7 @@ int main(int argc, char** argv) {
       {"seeds", "3",
        "clouds of consecutive seeds that a case with random nodes is run on, 1 "
        "to 1000: value is the median, low and high are the smallest and largest"}};
+  study.check_options = [](const Options& extra) { seeds_of(extra); };
   study.keeps = [](const CaseKey& key, const std::vector<std::string>& columns,
                    const Options& extra) {
     return columns[0] == fmt::format("{}", with_seeds(key.cloud, 1, seeds_of(extra)).size());

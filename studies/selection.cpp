@@ -32,13 +32,22 @@ std::string grow_until(const std::string& limit, const std::string& scaling,
   }
 }
 
+/// The values of an option, with commas between them.
+std::vector<std::string> values_of(const Options& extra, const std::string& key) {
+  try {
+    return split_specs(extra.text(key));
+  } catch (const UsageError& error) {
+    throw UsageError(fmt::format("--{} {}: {}", key, extra.text(key), error.what()));
+  }
+}
+
 /// Every grow_until rule over the limits, scalings and norms asked for, then the plain rules.
 std::string default_stencils(const Options& extra) {
   std::string axis;
   for (const char* base : grown) {
-    for (const std::string& scaling : split_specs(extra.text("scaling"))) {
-      for (const std::string& norm : split_specs(extra.text("norm"))) {
-        for (const std::string& limit : split_specs(extra.text("cond-max"))) {
+    for (const std::string& scaling : values_of(extra, "scaling")) {
+      for (const std::string& norm : values_of(extra, "norm")) {
+        for (const std::string& limit : values_of(extra, "cond-max")) {
           axis += grow_until(limit, scaling, norm, base) + ",";
         }
       }

@@ -108,6 +108,7 @@ int main(int argc, char** argv) {
        "the "
        "method's own number of nearest nodes and grows to cond(S A) <= 4e8, whatever --stencil "
        "says"}};
+  study.check_options = [](const Options& extra) { algorithms_of(extra); };
   study.quantities = quantities;
   study.run = run;
   return run_study(argc, argv, study);

@@ -101,6 +101,15 @@ class Seeds(StudyTest):
             self.assertEqual(row["seeds"], "1")
             self.assertEqual({row["low"], row["high"]}, {row["value"]})
 
+    def test_seeds_that_do_not_fit_are_refused_before_a_table_is_touched(self):
+        self.table.write_text("an earlier table\n", encoding="utf-8")
+        last = 2**31 - 1  # the largest seed
+        for arguments, words in ((["--seeds", "0"], ["--seeds 0", "1 to 1000"]), (["--seeds", "few"], ["--seeds few"]),
+                                 (["--cloud", f"perturbed[seed={last}]", "--seeds", "2"], ["--seeds 2", str(last)]),
+                                 (["--cloud", "scattered", "--seed", last - 1], ["--seeds 3", str(last)])):
+            self.assert_refused([*arguments, "--csv", self.table], *words, study="local_accuracy")
+            self.assertEqual(self.table.read_text(encoding="utf-8"), "an earlier table\n")
+
     def test_rows_of_another_number_of_seeds_are_not_resumed(self):
         arguments = ["--method", "mfpm", "--levels", "11", "--cloud", "perturbed", "--csv", self.table]
         self.assertEqual(run("local_accuracy", *arguments, "--seeds", "1").returncode, 0)

@@ -132,7 +132,9 @@ class Selection(StudyTest):
 
     def test_bad_limits_are_refused_and_so_are_limits_beside_rules(self):
         self.assert_refused(["--cond-max", "1e3,high"], "--cond-max", "high", study="selection")
-        self.assert_refused(["--scaling", "columns"], "--scaling", "columns", "row", study="selection")
+        self.assert_refused(["--cond-max", "[1e3"], "--cond-max", "[1e3", study="selection")
+        for study in ("selection", "conditioning"):
+            self.assert_refused(["--scaling", "columns"], "--scaling", "columns", "row", study=study)
         self.assert_refused(["--stencil", "nearest", "--norm", "one"], "--norm", "--stencil",
                             study="selection")
 

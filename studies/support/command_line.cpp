@@ -98,6 +98,22 @@ Options extra_options(const Given& given, const Study& study) {
   return Options({study.name, study.summary, study.extra_options}, spec);
 }
 
+/// Lets the study look at its own options; a message names those that were given.
+void check_extra(const Study& study, const Given& given, const Options& extra) {
+  if (!study.check_options) return;
+  try {
+    study.check_options(extra);
+  } catch (const UsageError& error) {
+    std::string options;
+    for (const OptionDoc& option : study.extra_options) {
+      const std::string name = "--" + option.key;
+      if (!given.has(name)) continue;
+      options += fmt::format("{}{} {}", options.empty() ? "" : " ", name, given.values.at(name));
+    }
+    throw UsageError(fmt::format("{}: {}", options, error.what()));
+  }
+}
+
 /// An option of a study program with its help.
 struct OptionHelp {
   std::string name, placeholder, help;
@@ -220,6 +236,7 @@ CommandLine parse_command_line(int argc, const char* const* argv, const Study& s
   }
   if (given.list) return plain_text(CommandLine::Action::list, "", study);
   Options extra = extra_options(given, study);
+  check_extra(study, given, extra);
   CommandLine line{
       CommandLine::Action::run,
       "",

@@ -1,9 +1,11 @@
 #include "studies/support/seeds.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
+#include "methods/core/error.hpp"
 #include "methods/core/options.hpp"
 #include "problems/core/layout.hpp"
 
@@ -21,6 +23,14 @@ std::vector<std::string> with_seeds(const std::string& cloud, std::uint64_t seed
     first = std::stoull(argument.second);  // canonical specs hold checked integers
     return true;
   });
+  constexpr std::uint64_t largest = std::numeric_limits<int>::max();  // what layouts take
+  const std::uint64_t last = first + static_cast<std::uint64_t>(count - 1);
+  if (last > largest) {
+    throw UsageError(
+        fmt::format("--seeds {}: the cloud {} would be made with seeds up to {}, above "
+                    "{}; give a smaller seed or fewer of them",
+                    count, cloud, last, largest));
+  }
   std::vector<std::string> clouds;
   for (int i = 0; i < count; ++i) {
     Spec one = rest;

@@ -9,7 +9,8 @@
 namespace strongpoint {
 
 /// The same cloud spec with `count` consecutive seeds, its own (or `seed`, where it gives none) the
-/// first; the spec alone for a layout without random numbers.
+/// first; the spec alone for a layout without random numbers. Throws UsageError when the last seed
+/// is larger than layouts take.
 std::vector<std::string> with_seeds(const std::string& cloud, std::uint64_t seed, int count);
 
 /// Joins results of one case on clouds of several seeds: per quantity the median of those that have

@@ -80,6 +80,9 @@ struct Study {
   bool mapped = false;                     ///< its cases write files for `--vtk`
   std::vector<std::string> extra_columns;  ///< appended after the contract's columns
   std::vector<OptionDoc> extra_options;    ///< `--key VALUE` options of this study
+  /// Reads the study's own options, to throw UsageError for a value that does not fit before any
+  /// file is touched; empty: any value fits.
+  std::function<void(const Options& extra)> check_options;
   /// The stencil axis when `--stencil` is not given, in specs made from the study's own options,
   /// which are all refused beside `--stencil`. Without it every method is run with its default.
   std::function<std::string(const Options& extra)> default_stencils;
