@@ -84,6 +84,24 @@ class Interruptions(StudyTest):
         self.assert_same_table(whole)
         self.assertEqual((self.directory / "table.csv.old").read_text(encoding="utf-8"), old)
 
+    def test_rows_of_other_options_of_a_study_are_kept_in_a_copy(self):
+        arguments = ["--method", "mfpm", "--levels", "5", "--csv", self.table]
+        self.assertEqual(run("conditioning", *arguments).returncode, 0)
+        old = self.table.read_bytes()
+        result = run("conditioning", *arguments, "--scaling", "row", "--resume", self.table)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("table.csv.old", result.stderr)
+        self.assertEqual((self.directory / "table.csv.old").read_bytes(), old)
+
+    def test_skipped_cases_are_kept_whatever_the_seeds(self):
+        arguments = ["--method", "fdm", "--cloud", "scattered", "--levels", "5", "--csv", self.table]
+        self.assertEqual(run("local_accuracy", *arguments, "--seeds", "1").returncode, 0)
+        old = self.table.read_bytes()
+        self.assertEqual({r["status"] for r in rows_of(old.decode())}, {"skipped"})
+        result = run("local_accuracy", *arguments, "--seeds", "2", "--resume", self.table)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertEqual(self.table.read_bytes(), old)
+
     def test_resume_of_a_file_that_is_not_there_starts_afresh(self):
         result = run("convergence", *QUICK, "--resume", self.table)
         self.assertEqual(result.returncode, 0, result.stderr)

@@ -210,6 +210,8 @@ class Refusals(StudyTest):
         self.assert_refused([*QUICK, "--csv", self.directory], "--csv", str(self.directory))
         self.assert_refused([*QUICK, "--csv", "-", "--json", "-"], "--json", "--csv")
         self.assert_refused([*QUICK, "--resume", "-"], "--resume")
+        for option in ("--csv", "--resume"):
+            self.assert_refused([*QUICK, option, self.table, "--json", f"{self.directory}/./table.csv"], "--json", option)
 
     def test_a_refused_command_leaves_an_existing_table_alone(self):
         self.table.write_text("precious", encoding="utf-8")

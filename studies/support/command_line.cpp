@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <limits>
 #include <map>
 
@@ -140,7 +141,9 @@ std::vector<OptionHelp> option_helps(const Study& study) {
                     : "refused: this study has no numbers per node"},
       {"--csv", "FILE", "write the tidy table; - is standard output"},
       {"--json", "FILE", "write the table with its provenance; - is standard output"},
-      {"--resume", "FILE", "keep the finished cases of this table, run the rest"}};
+      {"--resume", "FILE",
+       study.mapped ? "keep the finished cases of this table, run the rest; --vtk writes the latter"
+                    : "keep the finished cases of this table, run the rest"}};
   for (const OptionDoc& option : study.extra_options) {
     const std::string standard = option.default_value.empty() ? "none" : option.default_value;
     helps.push_back({"--" + option.key, "VALUE", option.doc + "; default " + standard});
@@ -193,17 +196,29 @@ void parse(CLI::App& app, const std::vector<OptionHelp>& helps, int argc, const 
   }
 }
 
+/// True when both paths are given and name the same file, whether or not it exists.
+bool same_file(const std::string& a, const std::string& b) {
+  namespace fs = std::filesystem;
+  if (a.empty() || b.empty()) return false;
+  if (a == b) return true;
+  if (a == "-" || b == "-") return false;
+  std::error_code ignored;
+  const fs::path real = fs::weakly_canonical(fs::absolute(a, ignored), ignored);
+  return (!real.empty() && real == fs::weakly_canonical(fs::absolute(b, ignored), ignored)) ||
+         fs::equivalent(a, b, ignored);
+}
+
 void check_files(const CommandLine& line) {
   if (line.resume == "-") {
     throw UsageError("--resume -: must be a file; standard output cannot be read back");
   }
-  if (!line.json.empty() && line.json == line.csv) {
-    throw UsageError(
-        fmt::format("--json {}: is the file of --csv too; give them different names", line.json));
-  }
-  if (!line.json.empty() && line.json == line.resume) {
+  if (same_file(line.json, line.resume)) {
     throw UsageError(fmt::format(
         "--json {}: is the file of --resume too; give them different names", line.json));
+  }
+  if (same_file(line.json, line.csv)) {
+    throw UsageError(
+        fmt::format("--json {}: is the file of --csv too; give them different names", line.json));
   }
 }
 

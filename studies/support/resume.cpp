@@ -55,6 +55,14 @@ void check_header(const std::string& path, const std::vector<std::string>& heade
                            path, what, fmt::join(expected, ","))));
 }
 
+/// Rows with a value that the planned case does not give: they come of other options of the study.
+int foreign_rows(const std::vector<Row>& rows, const PlannedCase& planned) {
+  return static_cast<int>(std::count_if(rows.begin(), rows.end(), [&](const Row& row) {
+    const std::vector<std::string>& known = planned.quantities;
+    return row.value && std::find(known.begin(), known.end(), row.quantity) == known.end();
+  }));
+}
+
 bool is_complete(const std::vector<Row>& rows, const PlannedCase& planned) {
   std::vector<std::string> missing = planned.quantities;
   for (const Row& row : rows) {
@@ -104,7 +112,9 @@ Resumed read_resumed(const std::string& path, const std::vector<PlannedCase>& pl
     }
   }
   for (std::size_t i = 0; i < plan.size(); ++i) {
-    if (!is_complete(resumed.cases[i], plan[i])) resumed.cases[i].clear();
+    if (is_complete(resumed.cases[i], plan[i])) continue;
+    resumed.left_out += foreign_rows(resumed.cases[i], plan[i]);
+    resumed.cases[i].clear();
   }
   return resumed;
 }

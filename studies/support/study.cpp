@@ -79,12 +79,12 @@ void GridRun::keep_rows_left_out(int count) const {
                              error);
   if (error) {
     throw UsageError(
-        fmt::format("--resume {}: holds {} rows of other cases or another code version, "
+        fmt::format("--resume {}: holds {} rows of other cases, options or another code version, "
                     "which cannot be saved as {} ({}); name another --csv",
                     line_.resume, count, copy, error.message()));
   }
-  tell(fmt::format("{}: {} rows of other cases or another code version are kept in {}", study_.name,
-                   count, copy));
+  tell(fmt::format("{}: {} rows of other cases, options or another code version are kept in {}",
+                   study_.name, count, copy));
 }
 
 void GridRun::start() {
