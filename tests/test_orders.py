@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """Orders of accuracy that theory gives come out of the study programs; medians over seeds are what they say."""
+import itertools
 import math
 import statistics
 import subprocess
@@ -129,6 +130,22 @@ class Summary(StudyTest):
         self.assertEqual(result.stdout.splitlines(),
                          ["| method | grid: order 1 | grid: order 2 |", "|---|---|---|",
                           "| `m` | 2.0 / 1.0 | 0.0 |", "| `none` | skipped | skipped |"])
+
+    def test_cases_that_differ_in_more_than_the_level_are_not_joined_to_a_slope(self):
+        # Second order everywhere, but the constant depends on all that tells cases apart.
+        rows, constant = ["study,problem,method,stencil,cloud,form,solver,level,spacing,quantity,value,status"], 1
+        for axes in itertools.product("p", ("m", "n"), ("s", "t"), ("grid", "random"), ("weak", "strong"), "u"):
+            problem, method, stencil, cloud, form, solver = axes
+            constant *= 3
+            for level, h in ((11, 0.1), (21, 0.05)):
+                rows.append(f"convergence,{problem},{method},{stencil},{cloud},{form},{solver},{level},{h},"
+                            f"u_error,{constant * h**2},ok")
+        self.table.write_text("\n".join(rows) + "\n", encoding="utf-8")
+        result = subprocess.run([ROOT / "results" / "orders", self.table], capture_output=True, text=True, check=True)
+        lines = [f"| `{m}`, {s}, {f} | 2.0 | 2.0 |"
+                 for m, s, f in itertools.product("mn", "st", ("weak", "strong"))]
+        self.assertEqual(result.stdout.splitlines(),
+                         ["| method | grid: u_error | random: u_error |", "|---|---|---|", *lines])
 
     def test_a_file_that_is_no_table_is_refused_in_one_line(self):
         result = subprocess.run([ROOT / "results" / "orders", self.table], capture_output=True, text=True, check=False)
