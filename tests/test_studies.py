@@ -94,6 +94,9 @@ class Tables(StudyTest):
         for word in ("poisson_square", "mfpm", "u_error", "slope"):
             self.assertIn(word, result.stdout)
         self.assertLessEqual(max(map(len, result.stdout.splitlines())), 110)
+        for study in ("convergence", "local_accuracy"):  # labels of both lengths, as many levels as fit
+            result = run(study, "--method", "mfpm", "--cloud", "grid", "--levels", "5,6,7,8,9")
+            self.assertEqual(max(map(len, result.stdout.splitlines())), 110)
 
     def test_a_case_written_twice_is_run_once_and_levels_ascend(self):
         result = run("convergence", "--problem", "poisson_square", "--method", "mfpm,mfpm", "--levels",

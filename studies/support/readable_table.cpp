@@ -15,6 +15,7 @@ constexpr std::size_t line_width = 110;
 constexpr std::size_t margin = 2;
 constexpr std::size_t least_label_width = 22;
 constexpr std::size_t cell_width = 16;
+constexpr std::size_t slope_width = 6;  // leaves room for five levels beside the least label
 
 /// The cases of one method and stencil on one problem, cloud, form and solver, by level.
 using Block = std::vector<const std::vector<Row>*>;
@@ -128,7 +129,7 @@ std::string head_lines(const Block& block, Span span, const Study& study) {
   std::string text = table_line("level", span, [&](std::size_t i) {
     return fmt::format("{} {:>5}", first_row(i).key.level, study.rated ? "rate" : "");
   });
-  if (study.rated && span.last == block.size()) text += fmt::format("{:>7}", "slope");
+  if (study.rated && span.last == block.size()) text += fmt::format("{:>{}}", "slope", slope_width);
   text = ended(text);
   text +=
       ended(table_line("nodes", span, [&](std::size_t i) { return count(first_row(i).nodes); }));
@@ -197,8 +198,9 @@ std::string block_text(const Block& block, const Study& study) {
   const std::vector<Line> lines = any ? lines_of(block) : std::vector<Line>();
   std::size_t label_width = least_label_width;
   for (const Line& line : lines) label_width = std::max(label_width, line.label.size());
-  const std::size_t taken = std::min(margin + label_width, line_width - cell_width);
-  const std::size_t abreast = (line_width - taken) / cell_width;
+  const std::size_t room = line_width - (study.rated ? slope_width : 0);
+  const std::size_t taken = std::min(margin + label_width, room - cell_width);
+  const std::size_t abreast = (room - taken) / cell_width;
   for (std::size_t first = 0; any && first < block.size(); first += abreast) {
     const Span span{first, std::min(first + abreast, block.size()), label_width};
     text += head_lines(block, span, study);
@@ -206,7 +208,7 @@ std::string block_text(const Block& block, const Study& study) {
       std::string row =
           table_line(line.label, span, [&](std::size_t i) { return cell(line.rows[i]); });
       const std::optional<double> fitted = study.rated ? slope(line) : std::nullopt;
-      if (fitted && span.last == block.size()) row += fmt::format("{:>7.2f}", *fitted);
+      if (fitted && span.last == block.size()) row += fmt::format("{:>{}.2f}", *fitted, slope_width);
       text += ended(row);
     }
     if (study.timed) text += time_lines(block, span);
