@@ -151,8 +151,8 @@ std::vector<Quantity> told(const Figures& figures, const std::vector<std::string
 
 template <int Dim>
 void write_map(const RunOptions& options, const CaseKey& key, const Discretisation<Dim>& scene,
-               const Method<Dim>& method, const Figures& figures,
-               const std::vector<std::string>& names) {
+               const Method<Dim>& method, const Figures& figures, const Options& extra) {
+  const std::vector<std::string> names = figure_names(extra);
   std::vector<NodeArray> arrays;
   const auto add = [&](const std::string& name, const PerAnchor& figure) {
     if (figure.reason.empty()) arrays.push_back({name, figure.values});
@@ -161,7 +161,9 @@ void write_map(const RunOptions& options, const CaseKey& key, const Discretisati
   add("laplacian_centre", figures.centres);
   add("stencil_size", stencil_sizes<Dim>(scene, method));
   arrays.push_back(zone_array(scene.sites.anchor_zone));
-  write_vtu<Dim>(*options.vtk, key, scene.cloud.nodes, arrays);
+  VtkOutput output = *options.vtk;
+  if (scaling_of(extra) == Scaling::row) output.study += "_row";  // beside the map of `both`
+  write_vtu<Dim>(output, key, scene.cloud.nodes, arrays);
 }
 
 template <int Dim>
@@ -176,9 +178,8 @@ CaseResult run(const Problem<Dim>& problem, const CaseKey& key, const RunOptions
   scene.sites = sites_of_cloud<Dim>(scene.cloud);
   choose_stencils<Dim>(scene, problem.domain(), choices, options, clock, result.times);
   const Figures figures = judge<Dim>(scene, *choices.method, scaling_of(extra));
-  const std::vector<std::string> names = figure_names(extra);
-  if (options.vtk) write_map<Dim>(options, key, scene, *choices.method, figures, names);
-  result.quantities = told(figures, names, scene.sites.anchor_zone);
+  if (options.vtk) write_map<Dim>(options, key, scene, *choices.method, figures, extra);
+  result.quantities = told(figures, figure_names(extra), scene.sites.anchor_zone);
   result.nodes = scene.cloud.size();
   result.spacing = scene.cloud.spacing();
   return result;

@@ -118,6 +118,12 @@ class Files(MapTest):
                           "nearest[k=9],nearest[k=9,ties=cut],grow_until", "--cloud", "grid,perturbed")
         self.assertEqual(len(files), 6)
 
+    def test_the_map_of_another_scaling_replaces_none(self):
+        self.maps("conditioning", *GRID)
+        files = self.maps("conditioning", *GRID, "--scaling", "row")
+        first = {next(iter(self.arrays(root))) for root in files.values()}
+        self.assertEqual(first, {"condition_two", "condition_two_row"})
+
     def test_what_cannot_be_written_is_refused_before_anything_runs(self):
         self.table.write_text("a file", encoding="utf-8")
         self.assert_refused([*QUICK, "--vtk", self.table], "--vtk", str(self.table))

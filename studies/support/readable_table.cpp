@@ -208,7 +208,8 @@ std::string block_text(const Block& block, const Study& study) {
       std::string row =
           table_line(line.label, span, [&](std::size_t i) { return cell(line.rows[i]); });
       const std::optional<double> fitted = study.rated ? slope(line) : std::nullopt;
-      if (fitted && span.last == block.size()) row += fmt::format("{:>{}.2f}", *fitted, slope_width);
+      if (fitted && span.last == block.size())
+        row += fmt::format("{:>{}.2f}", *fitted, slope_width);
       text += ended(row);
     }
     if (study.timed) text += time_lines(block, span);
