@@ -50,13 +50,17 @@ def read_vtu(path):
         arrays = {e.get("Name"): decoded(e, order) for e in root.findall(".//PointData/DataArray")}
         title = root.find(".//FieldData/Array[@Name='case']")
         codes = [] if title is None else [int(code) for code in title.text.split()]
+        text = bytes(code for code in codes if code).decode(errors="replace")  # paths may hold any byte
+        for name, values in arrays.items():
+            if len(values) != len(positions):
+                raise ValueError(f"array {name} holds {len(values)} numbers for {len(positions)} nodes")
     except OSError as error:
         raise MapError(f"cannot read '{path}': {error.strerror}; give a file written with --vtk") from None
     except (ElementTree.ParseError, ValueError, KeyError, AttributeError, struct.error) as error:
         raise MapError(f"'{path}' is not a .vtu file written by a study: {error}") from None
     if len(positions) == 0:
         raise MapError(f"'{path}' holds no nodes")
-    return positions, arrays, bytes(code for code in codes if code).decode()
+    return positions, arrays, text
 
 
 def scale_of(name, values):

@@ -161,7 +161,14 @@ class Pictures(MapTest):
         ((path, _),) = self.maps("conditioning", *GRID).items()
         broken = self.directory / "broken.vtu"
         broken.write_text("<VTKFile", encoding="utf-8")
-        for arguments, word in (((path, "--array", "colour"), "condition_two"),
+        text = path.read_text(encoding="utf-8")
+        short = self.directory / "short.vtu"
+        two = base64.b64encode(struct.pack("<Qdd", 16, 1, 2)).decode()
+        short.write_text(re.sub('(Name="zone"[^>]*>\n)[^<]*', r"\g<1>" + two, text), encoding="utf-8")
+        title = self.directory / "title.vtu"
+        title.write_text(re.sub('(Name="case"[^>]*>\n)', r"\g<1>300 ", text), encoding="utf-8")
+        for arguments, word in (((short,), "2 numbers for 81 nodes"), ((title,), "title.vtu"),
+                                ((path, "--array", "colour"), "condition_two"),
                                 ((path, "--quantity", "u_error"), "--quantity"),
                                 ((broken,), "broken.vtu"), ((self.directory / "none.vtu",), "No such file")):
             result = plot(*arguments)
