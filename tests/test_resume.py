@@ -92,6 +92,10 @@ class Interruptions(StudyTest):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("table.csv.old", result.stderr)
         self.assertEqual((self.directory / "table.csv.old").read_bytes(), old)
+        by_rows = self.table.read_bytes()
+        self.assertEqual(run("conditioning", *arguments, "--resume", self.table).returncode, 0)
+        copies = [(self.directory / f"table.csv.{name}").read_bytes() for name in ("old", "old2")]
+        self.assertEqual(copies, [old, by_rows])
 
     def test_skipped_cases_are_kept_whatever_the_seeds(self):
         arguments = ["--method", "fdm", "--cloud", "scattered", "--levels", "5", "--csv", self.table]

@@ -74,9 +74,11 @@ std::string GridRun::text_of(const std::vector<Row>& rows) const {
 void GridRun::keep_rows_left_out(int count) const {
   std::error_code error;
   if (count == 0 || !std::filesystem::equivalent(line_.resume, line_.csv, error)) return;
-  const std::string copy = line_.csv + ".old";
-  std::filesystem::copy_file(line_.csv, copy, std::filesystem::copy_options::overwrite_existing,
-                             error);
+  std::string copy = line_.csv + ".old";
+  for (int i = 2; std::filesystem::exists(copy, error); ++i) {  // earlier copies hold other rows
+    copy = fmt::format("{}.old{}", line_.csv, i);
+  }
+  std::filesystem::copy_file(line_.csv, copy, error);
   if (error) {
     throw UsageError(
         fmt::format("--resume {}: holds {} rows of other cases, options or another code version, "
