@@ -71,6 +71,13 @@ class PlotTest(unittest.TestCase):
         for path in (self.directory / "one").iterdir():
             self.assertEqual(path.read_bytes(), (self.directory / "two" / path.name).read_bytes(), path.name)
 
+    def test_no_figure_of_one_table_replaces_that_of_another(self):
+        self.write(self.error_rows())
+        other = self.directory / "other.csv"
+        other.write_bytes(self.table.read_bytes())
+        self.assert_refused(plot(self.table, other, "-o", self.directory / "figures"),
+                            "convergence_poisson-square_grid_u-error", "-o")
+
     def test_a_method_has_one_style_whatever_stands_beside_it(self):
         module = loaded()
         styles = [module.method_style(name) for name in module.METHODS]
