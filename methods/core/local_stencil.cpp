@@ -110,8 +110,10 @@ void throw_first_failure(const Sites<Dim>& sites, const Stencils& stencils,
                                 [](LocalOutcome outcome) { return outcome != LocalOutcome::ok; });
   if (bad == outcomes.end()) return;
   const int anchor = static_cast<int>(bad - outcomes.begin());
-  throw CaseError(fmt::format("{}: the stencil of node {} at {} {}", kernel,
-                              sites.anchor_node[anchor], format_point(sites.anchors.col(anchor)),
+  const int node = sites.anchor_node[anchor];
+  throw CaseError(fmt::format("{}: the stencil of {} at {} {}", kernel,
+                              node < 0 ? "the point" : fmt::format("node {}", node),
+                              format_point(sites.anchors.col(anchor)),
                               explain(*bad, static_cast<int>(stencils[anchor].size()), needed)));
 }
 
