@@ -294,7 +294,10 @@ TEST(ShapeFunctions, OfUnequalVolumesDiffer) {
 
 TEST(ExtendedFit, HasTheKnownLaplacianOnABlockOfAGrid) {
   Points<2> nodes(2, 9);
-  for (int i = 0; i < 9; ++i) nodes.col(i) << 0.25 * (i / 3), 0.25 * (i % 3);
+  for (int i = 0; i < 9; ++i) {
+    const int row = i / 3;
+    nodes.col(i) << 0.25 * row, 0.25 * (i - 3 * row);
+  }
   Sites<2> sites = sites_at_nodes<2>(nodes);
   std::vector<int> block(9);
   std::iota(block.begin(), block.end(), 0);
