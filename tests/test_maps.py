@@ -47,6 +47,14 @@ class Files(MapTest):
     def arrays(self, root):
         return {a.get("Name"): numbers(a) for a in root.findall(".//PointData/DataArray")}
 
+    def test_a_form_with_points_beside_the_nodes_writes_numbers_of_the_nodes_only(self):
+        ((_, root),) = self.maps("convergence", "--problem", "poisson_square", "--method", "mls[h=1.3]", "--form",
+                                 "mlpg", "--levels", "7").items()
+        arrays = self.arrays(root)
+        self.assertEqual({name: len(values) for name, values in arrays.items()},
+                         {"u": 49, "stencil_size": 49, "zone": 49})
+        self.assertEqual(sum(arrays["zone"]), 24)
+
     def test_a_file_holds_every_node_as_a_vertex_with_its_numbers(self):
         ((_, root),) = self.maps("conditioning", *GRID).items()
         self.assertEqual((root.tag, root.get("type"), root.get("byte_order"), root.get("header_type")),

@@ -72,11 +72,13 @@ void write_fields(const RunOptions& options, const CaseKey& key, const Discretis
     arrays.push_back({names[f], {field.begin(), field.end()}});
   }
   NodeArray sizes{"stencil_size", {}};
-  for (int i = 0; i < scene.weights.size(); ++i) {
+  std::vector<Zone> zones;
+  for (int i = 0; i < scene.cloud.size(); ++i) {  // points beyond are no nodes
     sizes.values.push_back(static_cast<double>(scene.weights.nodes(i).size()));
+    zones.push_back(scene.cloud.is_boundary(i) ? Zone::boundary : Zone::interior);
   }
   arrays.push_back(std::move(sizes));
-  arrays.push_back(zone_array(scene.sites.anchor_zone));
+  arrays.push_back(zone_array(zones));
   write_vtu<Dim>(*options.vtk, key, scene.cloud.nodes, arrays);
 }
 

@@ -251,7 +251,7 @@ class MlpgForm final : public Form<Dim> {
 /// given values are rows at their nodes, not a penalty (so that no factor has to be chosen); the
 /// shape functions are those of the method chosen, moving least squares there. Discs of 1.3
 /// spacings overlap, which makes errors several times smaller than with 0.9. Shape functions of
-/// degree 1 do not converge, not even on a grid: the test functions do not add up to a constant,
+/// degree 1 miss second order, even on a grid: the test functions do not add up to a constant,
 /// and what the Laplacian of such a function errs by does not cancel. Wide supports (mls beyond 2.6
 /// spacings) are erratic on irregular clouds.
 FormEntry form_mlpg() {
