@@ -37,10 +37,11 @@ class Bvp1d final : public SteadyProblem<1> {
     if (marks.empty()) return {second};
     return marks[0].side == left ? Derivatives<1>{} : Derivatives<1>{first};
   }
-  void equations(const Node<1>& node, EquationWriter<1>& write) const override {
-    const MultiIndex<1> alpha = node.marks.empty() ? second : node.on(left) ? value : first;
-    write.add(0, alpha, 1);
-    write.equals(exact_derivatives<1>(Exact{}, node.x, {alpha})[0]);
+  void governing(const Place<1>& place, EquationWriter<1>& write) const override {
+    write_derivative(second, place.x, write);
+  }
+  void boundary(const Node<1>& node, EquationWriter<1>& write) const override {
+    write_derivative(node.on(left) ? value : first, node.x, write);
   }
   std::vector<std::string> quantities() const override { return {"u_error", "u_max_error"}; }
   std::vector<double> measure(const Solution<1>& solution) const override {
@@ -56,6 +57,12 @@ class Bvp1d final : public SteadyProblem<1> {
   static constexpr int left = 0;
   static constexpr MultiIndex<1> value{0}, first{1}, second{2};
   PowerInterval domain_;
+
+  static void write_derivative(const MultiIndex<1>& alpha, const Point1& x,
+                               EquationWriter<1>& write) {
+    write.add(0, alpha, 1);
+    write.equals(exact_derivatives<1>(Exact{}, x, {alpha})[0]);
+  }
 };
 
 }  // namespace

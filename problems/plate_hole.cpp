@@ -4,10 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "problems/core/elasticity.hpp"
-#include "problems/core/flux_problem.hpp"
-#include "problems/core/jet.hpp"
-#include "problems/core/norms.hpp"
+#include "problems/core/exact_elasticity.hpp"
 
 namespace strongpoint {
 namespace {
@@ -119,48 +116,31 @@ struct Kirsch {
   }
 };
 
-class PlateHole final : public FluxProblem<2> {
+class PlateHole final : public ElasticProblem<2> {
  public:
-  PlateHole(double a, double nu, Map map)
-      : domain_(a, map),
+  PlateHole(double a, double nu, Map map, Unknowns unknowns)
+      : ElasticProblem(unknowns),
+        domain_(a, map),
         hole_radius_(a),
         material_(lame_constants(young, nu)),
-        exact_{a, 3 - 4 * nu, material_.mu, tension} {}
+        exact_(Kirsch{a, 3 - 4 * nu, material_.mu, tension}, material_) {}
 
   const Domain<2>& domain() const override { return domain_; }
-  std::vector<std::string> fields() const override { return {"u", "v"}; }
-  Derivatives<2> derivatives(std::span<const BoundaryMark<2>> marks) const override {
-    return marks.empty() ? Derivatives<2>{{2, 0}, {1, 1}, {0, 2}} : first_derivatives;
+  Lame material(const Place<2>&) const override { return material_; }
+  std::vector<SymmetryPlane> symmetry_planes() const override {
+    return {{left, 0, 0}, {bottom, 1, 0}};
   }
-  Derivatives<2> measured_derivatives() const override { return first_derivatives; }
+  Derivatives<2> measured_derivatives() const override { return first_derivatives(); }
 
-  void equations(const Node<2>& node, EquationWriter<2>& write) const override {
-    if (node.marks.empty()) {
-      for (int i = 0; i < 2; ++i) {
-        add_equilibrium(write, material_, i);
-        write.equals(0);
-      }
-    } else if (const int plane = symmetry_plane(node); plane >= 0) {
-      write_symmetry(node, plane, write);
-    } else if (node.marks.size() > 1) {
-      // Two loaded sides meet: the normal stress of each.
-      for (const BoundaryMark<2>& mark : node.marks)
-        write_traction(node, mark.normal, mark.normal, write);
-    } else {
-      for (int i = 0; i < 2; ++i)
-        write_traction(node, Point2::Unit(i), node.marks[0].normal, write);
-    }
+  /// Symmetry on bottom and left; the exact tractions on right and top, where the hole is free
+  /// because the exact solution is.
+  Known known(int field, int side) const override {
+    const int suppressed = side == bottom ? 1 : side == left ? 0 : -1;
+    return field == suppressed ? Known::value : Known::flux;
   }
-
-  void flux(int field, const Point2& direction, EquationWriter<2>& write) const override {
-    add_traction<2>(write, material_, Point2::Unit(field), direction);
-  }
-  double source(int, const Point2&) const override { return 0; }
-  SideCondition condition(int field, int side, const Point2& x) const override {
-    if (field == suppressed(side)) return {SideCondition::Kind::value, 0};
+  double given(int field, int side, const Point2& x) const override {
     const bool is_loaded = side == right || side == top;
-    const Point2 n = domain_.normal(side, x);
-    return {SideCondition::Kind::flux, is_loaded ? exact_stress_at(x).row(field).dot(n) : 0};
+    return is_loaded ? exact_.stress_at(x).row(field).dot(domain_.normal(side, x)) : 0;
   }
 
   std::vector<std::string> quantities() const override {
@@ -168,80 +148,20 @@ class PlateHole final : public FluxProblem<2> {
   }
 
   std::vector<double> measure(const Solution<2>& solution) const override {
-    const int count = solution.cloud.size();
-    Eigen::MatrixXd displacement(2, count);
-    Eigen::MatrixXd exact_stress(3, count);
-    Eigen::MatrixXd computed_stress(3, count);
-    std::array<Eigen::VectorXd, 4> slopes;  // u_x, u_y, v_x, v_y
-    for (int d = 0; d < 4; ++d) slopes[d] = solution.derivative(d / 2, first_derivatives[d % 2]);
-    for (int i = 0; i < count; ++i) {
-      const Point2 x = solution.cloud.nodes.col(i);
-      const auto jets = jets_at<2, 1>(exact_, x);
-      displacement.col(i) << jets[0].value(), jets[1].value();
-      Eigen::Matrix2d gradient;
-      gradient << slopes[0][i], slopes[1][i], slopes[2][i], slopes[3][i];
-      computed_stress.col(i) = components(stress<2>(material_, gradient));
-      exact_stress.col(i) = components(exact_stress_at(x));
-    }
-    const double concentration = computed_stress(0, notch_node(solution.cloud)) / tension;
-    return {std::abs(3 - concentration) / 3, relative_error(solution.fields, displacement),
-            relative_error(computed_stress.row(0), exact_stress.row(0)),
-            relative_error(computed_stress, exact_stress)};
+    const Eigen::MatrixXd computed = nodal_stresses(solution);
+    const Eigen::MatrixXd exact = exact_.stresses(solution.cloud);
+    const double concentration = computed(0, notch_node(solution.cloud)) / tension;
+    return {std::abs(3 - concentration) / 3, exact_.displacement_error(solution),
+            relative_error(computed.row(0), exact.row(0)), relative_error(computed, exact)};
   }
 
  private:
   static constexpr double young = 1e5;    // thesis (4.16)
   static constexpr double tension = 100;  // thesis (4.16)
-  inline static const Derivatives<2> first_derivatives{{1, 0}, {0, 1}};
   QuarterPlate domain_;
   double hole_radius_;
   Lame material_;
-  Kirsch exact_;
-
-  static Eigen::Vector3d components(const Eigen::Matrix2d& sigma) {
-    return {sigma(0, 0), sigma(1, 1), sigma(0, 1)};
-  }
-
-  Eigen::Matrix2d exact_stress_at(const Point2& x) const {
-    const auto jets = jets_at<2, 1>(exact_, x);
-    Eigen::Matrix2d gradient;
-    for (int i = 0; i < 2; ++i) {
-      for (int j = 0; j < 2; ++j) gradient(i, j) = jets[i].derivative(partial<2>(j));
-    }
-    return stress<2>(material_, gradient);
-  }
-
-  /// The displacement component that a side suppresses, being a symmetry plane, -1 when it is none.
-  static int suppressed(int side) { return side == bottom ? 1 : side == left ? 0 : -1; }
-
-  /// The same for the first symmetry plane at a node.
-  static int symmetry_plane(const Node<2>& node) {
-    for (const BoundaryMark<2>& mark : node.marks) {
-      if (suppressed(mark.side) >= 0) return suppressed(mark.side);
-    }
-    return -1;
-  }
-
-  /// Zero normal displacement; zero shear, or, where a loaded or free side meets the plane, that
-  /// side's traction along the plane.
-  void write_symmetry(const Node<2>& node, int plane, EquationWriter<2>& write) const {
-    write.add(plane, {0, 0}, 1);
-    write.equals(0);
-    const Point2 along = Point2::Unit(1 - plane);
-    for (const BoundaryMark<2>& mark : node.marks) {
-      if (suppressed(mark.side) < 0) return write_traction(node, along, mark.normal, write);
-    }
-    add_traction<2>(write, material_, along, Point2::Unit(plane));
-    write.equals(0);
-  }
-
-  /// The component along m of the traction on a face with normal n equals the exact one; the hole
-  /// is free because the exact solution is.
-  void write_traction(const Node<2>& node, const Point2& m, const Point2& n,
-                      EquationWriter<2>& write) const {
-    add_traction<2>(write, material_, m, n);
-    write.equals(node.on(hole) ? 0 : m.dot(exact_stress_at(node.x) * n));
-  }
+  ExactElasticity<2, Kirsch> exact_;
 
   /// The node nearest to (0, a), where the stress is largest.
   int notch_node(const PointCloud<2>& cloud) const {
@@ -262,11 +182,13 @@ ProblemEntry problem_plate_hole() {
             {"nu", "0.33", "Poisson's ratio, 0 to 0.4999"},
             {"map", "log",
              "log | edge: spacing of a grid's nodes along a ray, isotropic at the hole or "
-             "uniform"}}},
+             "uniform"},
+            unknowns_option()}},
           [](const Options& options) -> AnyProblem {
             return std::make_unique<PlateHole>(
                 options.number("a", 0.01, 0.9), options.number("nu", 0, 0.4999),
-                options.choice<Map>("map", {{"log", Map::log}, {"edge", Map::edge}}));
+                options.choice<Map>("map", {{"log", Map::log}, {"edge", Map::edge}}),
+                chosen_unknowns(options));
           }};
 }
 

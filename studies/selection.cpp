@@ -149,7 +149,8 @@ template <int Dim>
 CaseResult run(const SteadyProblem<Dim>& problem, const CaseKey& key, const RunOptions& options) {
   CaseResult result = run_steady_case(key, options);
   StageTimes untold;
-  const Discretisation<Dim> scene = discretise<Dim>(problem, key, options, untold, Upto::stencils);
+  const auto made = discretise<Dim>(problem, key, options, untold, Upto::stencils);
+  const Discretisation<Dim>& scene = *made;
   prepend_stencils<Dim>(scene, key, result);
   return result;
 }

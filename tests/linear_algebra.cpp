@@ -137,7 +137,7 @@ TEST(Assembly, WritesTheSumOfTermsWhateverTheirPoints) {
   write.add(0, {1}, 1);
   write.add(0, {0}, 100);
   write.equals(7);
-  const LinearSystem system = assemble(equations, weights, 2, 1);
+  const LinearSystem system = assemble(equations, weights, {.count = 2}, 1);
   // Row 0: columns 0 and 1 hold 5*2+20 = 30 and 5*1+10 = 15, scaled by 30.
   EXPECT_EQ(system.columns, (std::vector<std::int64_t>{0, 1, 0, 1}));
   EXPECT_DOUBLE_EQ(system.values[0], 1);
@@ -159,7 +159,7 @@ TEST(Assembly, NamesTheNodeOfAnEmptyRow) {
   write.add(0, {1}, 1);
   write.equals(0);
   try {
-    assemble(equations, weights, 1, 1);
+    assemble(equations, weights, {.count = 1}, 1);
     FAIL() << "an empty row went through";
   } catch (const CaseError& error) {
     EXPECT_NE(std::string(error.what()).find("node 0"), std::string::npos) << error.what();

@@ -7,8 +7,7 @@
 #include <omp.h>
 
 #include "problems/core/assembly.hpp"
-#include "problems/core/elasticity.hpp"
-#include "problems/core/flux_problem.hpp"
+#include "problems/core/elastic_problem.hpp"
 #include "problems/core/manufactured_poisson.hpp"
 #include "studies/support/run_case.hpp"
 
@@ -32,7 +31,7 @@ struct LinearField {
 };
 
 /// Homogeneous strain, on any domain: displacements given on one side, or tractions on all others.
-class HomogeneousStrain final : public FluxProblem<2> {
+class HomogeneousStrain final : public ElasticProblem<2> {
  public:
   HomogeneousStrain(const Domain<2>& domain, std::vector<std::string> clamped)
       : domain_(domain), clamped_(std::move(clamped)) {}
@@ -40,27 +39,21 @@ class HomogeneousStrain final : public FluxProblem<2> {
   static Point2 displacement(const Point2& x) { return gradient() * x + Point2(0.1, 0.2); }
 
   const Domain<2>& domain() const override { return domain_; }
-  std::vector<std::string> fields() const override { return {"u", "v"}; }
-  void flux(int field, const Point2& direction, EquationWriter<2>& write) const override {
-    add_traction<2>(write, material, Point2::Unit(field), direction);
-  }
-  double source(int, const Point2&) const override { return 0; }
-  SideCondition condition(int field, int side, const Point2& x) const override {
+  Lame material(const Place<2>&) const override { return lame; }
+  Known known(int, int side) const override {
     const std::string& name = domain_.sides()[side];
-    if (std::find(clamped_.begin(), clamped_.end(), name) != clamped_.end()) {
-      return {SideCondition::Kind::value, displacement(x)[field]};
-    }
-    const Point2 traction = stress<2>(material, gradient()) * domain_.normal(side, x);
-    return {SideCondition::Kind::flux, traction[field]};
+    const bool is_clamped = std::find(clamped_.begin(), clamped_.end(), name) != clamped_.end();
+    return is_clamped ? Known::value : Known::flux;
   }
-
-  Derivatives<2> derivatives(std::span<const BoundaryMark<2>>) const override { return {}; }
-  void equations(const Node<2>&, EquationWriter<2>&) const override {}
+  double given(int field, int side, const Point2& x) const override {
+    if (known(field, side) == Known::value) return displacement(x)[field];
+    return (stress<2>(lame, gradient()) * domain_.normal(side, x))[field];
+  }
   std::vector<std::string> quantities() const override { return {}; }
   std::vector<double> measure(const Solution<2>&) const override { return {}; }
 
  private:
-  inline static const Lame material = lame_constants(10, 0.3);
+  inline static const Lame lame = lame_constants(10, 0.3);
   const Domain<2>& domain_;
   std::vector<std::string> clamped_;
 
@@ -78,11 +71,11 @@ Eigen::MatrixXd solved(const Problem& problem, const std::string& form, const st
   const CaseKey key{"",        method, make_method<2>(method).made->default_stencil(), cloud, form,
                     "umfpack", 12};
   StageTimes times;
-  const Discretisation<2> scene = discretise<2>(problem, key, RunOptions{}, times);
+  const auto made = discretise<2>(problem, key, RunOptions{}, times);
+  const Discretisation<2>& scene = *made;
   const int fields = static_cast<int>(problem.fields().size());
-  const EquationList equations =
-      make_form<2>(form)->equations(problem, scene.cloud, scene.derivatives);
-  const LinearSystem system = assemble(equations, scene.weights, scene.cloud.size(), fields);
+  const LinearSystem system =
+      assemble(scene.equations(scene.derivatives), scene.weights, scene.unknowns, fields);
   const LinearSolution linear = solve(system, "umfpack");
   nodes = scene.cloud;
   return Eigen::Map<const Eigen::MatrixXd>(linear.x.data(), fields, scene.cloud.size());
@@ -169,10 +162,10 @@ TEST(Mlpg, WritesTheSameSystemOnOneAndFourThreads) {
   std::vector<double> values[2];
   for (int i = 0; i < 2; ++i) {
     options.threads = i == 0 ? 1 : 4;
-    const Discretisation<2> scene = discretise<2>(problem, key, options, times);
-    const EquationList list =
-        make_form<2>("mlpg")->equations(problem, scene.cloud, scene.derivatives);
-    values[i] = assemble(list, scene.weights, scene.cloud.size(), 1).values;
+    const auto made = discretise<2>(problem, key, options, times);
+    const Discretisation<2>& scene = *made;
+    values[i] =
+        assemble(scene.equations(scene.derivatives), scene.weights, scene.unknowns, 1).values;
   }
   omp_set_num_threads(1);
   EXPECT_EQ(values[0], values[1]);
@@ -183,7 +176,8 @@ TEST(Mlpg, EvaluatesAtTheNodesOnlyWhatIsRead) {
   StageTimes times;
   for (const char* method : {"rbf_fd", "mls"}) {
     const CaseKey key{"", method, "radius", "grid", "mlpg", "umfpack", 6};
-    const Discretisation<2> scene = discretise<2>(problem, key, RunOptions{}, times);
+    const auto made = discretise<2>(problem, key, RunOptions{}, times);
+    const Discretisation<2>& scene = *made;
     const bool interpolates = make_method<2>(method).made->promises().interpolates;
     EXPECT_EQ(scene.derivatives.size(), interpolates ? 2 : 3) << method;
     EXPECT_EQ(scene.sites.point_count(), 36 + 16 * 72) << method;  // 16 discs inside

@@ -19,7 +19,7 @@ Discretisation<Dim> discretised(const std::string& problem, const std::string& m
   StageTimes times;
   return with_problem<SteadyProblem>(
       problem, "steady", [&]<int D>(const SteadyProblem<D>& steady) -> Discretisation<Dim> {
-        if constexpr (D == Dim) return discretise<D>(steady, key, RunOptions{}, times);
+        if constexpr (D == Dim) return std::move(*discretise<D>(steady, key, RunOptions{}, times));
         throw std::logic_error("the problem lives in another dimension");
       });
 }
@@ -78,11 +78,11 @@ void check_that_dropping_throws(const std::string& spec) {
     const PointCloud<D> cloud = make_cloud<D>(problem.domain(), "grid", LayoutRequest{9, 1});
     const auto form = make_form<D>("collocation");
     const auto method = make_method<D>("lsfdm").made;
-    const Derivatives<D> declared = form->derivatives(problem, cloud, *method);
-    EXPECT_NO_THROW(form->equations(problem, cloud, declared));
+    const Plan<D> plan = form->plan(problem, cloud, *method);
+    const Derivatives<D>& declared = plan.derivatives;
+    EXPECT_NO_THROW(plan.equations(declared));
     for (const MultiIndex<D>& alpha : declared) {
-      EXPECT_THROW(form->equations(problem, cloud, declared.without(alpha)), std::logic_error)
-          << name_of<D>(alpha);
+      EXPECT_THROW(plan.equations(declared.without(alpha)), std::logic_error) << name_of<D>(alpha);
     }
   });
 }

@@ -81,9 +81,10 @@ class LocalMethod : public Method<Dim> {
     }
   }
   /// Writes the weights of all points of one anchor.
-  LocalOutcome fill(const Sites<Dim>& sites, const Stencils& stencils, int anchor, int first_point,
-                    const Derivatives<Dim>& derivatives, LocalStencil<Dim>& local,
-                    typename Kernel::Workspace& work, Weights& weights) const;
+  LocalOutcome fill(const Sites<Dim>& sites, const Stencils& stencils, int anchor,
+                    std::span<const int> points, const Derivatives<Dim>& derivatives,
+                    LocalStencil<Dim>& local, typename Kernel::Workspace& work,
+                    Weights& weights) const;
 };
 
 /// An empty pattern for the weights of all points: each row is the stencil of the point's anchor.
@@ -107,14 +108,14 @@ Weights weights_on_stencils(const Sites<Dim>& sites, const Stencils& stencils, i
 
 template <int Dim, class Kernel>
 requires LocalKernel<Kernel, Dim> LocalOutcome LocalMethod<Dim, Kernel>::fill(
-    const Sites<Dim>& sites, const Stencils& stencils, int anchor, int first_point,
+    const Sites<Dim>& sites, const Stencils& stencils, int anchor, std::span<const int> points,
     const Derivatives<Dim>& derivatives, LocalStencil<Dim>& local, typename Kernel::Workspace& work,
     Weights& weights)
 const {
   LocalOutcome outcome = local.gather(sites, stencils[anchor], anchor);
   if (outcome == LocalOutcome::ok) outcome = kernel_.factorise(local, work);
   if (outcome != LocalOutcome::ok) return outcome;
-  for (int p = first_point; p < sites.point_count() && sites.point_anchor[p] == anchor; ++p) {
+  for (int p : points) {
     const Point<Dim> offset = (sites.points.col(p) - sites.anchors.col(anchor)) / local.radius;
     Eigen::Map<Eigen::MatrixXd> row = weights.row(p);
     using Evaluated = decltype(kernel_.evaluate(local, work, offset, derivatives, row));
@@ -137,13 +138,9 @@ requires LocalKernel<Kernel, Dim> Weights LocalMethod<Dim, Kernel>::weights(
     const Sites<Dim>& sites, const Stencils& stencils, const Derivatives<Dim>& derivatives)
 const {
   check_needs(sites);
-  if (!std::is_sorted(sites.point_anchor.begin(), sites.point_anchor.end())) {
-    throw std::invalid_argument(traits_.name + ": evaluation points must be grouped by anchor");
-  }
   Weights weights = weights_on_stencils(sites, stencils, derivatives.size());
   std::vector<LocalOutcome> outcomes(sites.anchor_count(), LocalOutcome::ok);
-  std::vector<int> first_point(sites.anchor_count(), sites.point_count());
-  for (int p = sites.point_count() - 1; p >= 0; --p) first_point[sites.point_anchor[p]] = p;
+  const Stencils points = points_by_anchor(sites);
   ParallelErrors errors;
 #pragma omp parallel
   {
@@ -154,7 +151,7 @@ const {
       if (stencils[anchor].empty()) continue;
       errors.guard(anchor, [&] {
         outcomes[anchor] =
-            fill(sites, stencils, anchor, first_point[anchor], derivatives, local, work, weights);
+            fill(sites, stencils, anchor, points[anchor], derivatives, local, work, weights);
       });
     }
   }

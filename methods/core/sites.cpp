@@ -14,6 +14,18 @@ std::vector<int> Sites<Dim>::wanted_anchors() const {
 }
 
 template <int Dim>
+Stencils points_by_anchor(const Sites<Dim>& sites) {
+  Stencils lists;
+  lists.offsets.assign(sites.anchor_count() + 1, 0);
+  for (int anchor : sites.point_anchor) ++lists.offsets[anchor + 1];
+  std::partial_sum(lists.offsets.begin(), lists.offsets.end(), lists.offsets.begin());
+  lists.nodes.resize(sites.point_anchor.size());
+  auto next = lists.offsets;
+  for (int p = 0; p < sites.point_count(); ++p) lists.nodes[next[sites.point_anchor[p]]++] = p;
+  return lists;
+}
+
+template <int Dim>
 Sites<Dim> sites_at_nodes(const Points<Dim>& nodes) {
   Sites<Dim> sites;
   sites.nodes = nodes;
@@ -30,6 +42,9 @@ Sites<Dim> sites_at_nodes(const Points<Dim>& nodes) {
 template struct Sites<1>;
 template struct Sites<2>;
 template struct Sites<3>;
+template Stencils points_by_anchor(const Sites<1>&);
+template Stencils points_by_anchor(const Sites<2>&);
+template Stencils points_by_anchor(const Sites<3>&);
 template Sites<1> sites_at_nodes(const Points<1>&);
 template Sites<2> sites_at_nodes(const Points<2>&);
 template Sites<3> sites_at_nodes(const Points<3>&);

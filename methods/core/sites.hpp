@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "methods/core/points.hpp"
+#include "methods/core/stencils.hpp"
 
 namespace strongpoint {
 
@@ -44,7 +45,7 @@ struct Sites {
   std::vector<Zone> anchor_zone;     ///< (A)
   std::vector<std::uint8_t> wanted;  ///< (A) 0: no derivative is needed, the stencil stays empty
   Points<Dim> points;                ///< (Dim, P) derivatives are evaluated here
-  std::vector<int> point_anchor;     ///< (P) anchor of each point, ascending
+  std::vector<int> point_anchor;     ///< (P) anchor of each point
   Eigen::VectorXd volumes;           ///< (N) cell measures, empty unless needed
   Eigen::VectorXd spacing;           ///< (A) local node spacing, empty unless needed
   std::optional<IndexBlock<Dim>> block;  ///< structured clouds only
@@ -55,6 +56,10 @@ struct Sites {
   /// Ids of the anchors whose stencil is wanted.
   std::vector<int> wanted_anchors() const;
 };
+
+/// The evaluation points of each anchor, ascending: list a belongs to anchor a.
+template <int Dim>
+Stencils points_by_anchor(const Sites<Dim>& sites);
 
 /// Sites with every node an anchor and an evaluation point, all wanted and interior.
 template <int Dim>

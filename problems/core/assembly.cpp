@@ -29,8 +29,21 @@ struct Workspace {
   std::vector<std::int64_t> columns;       ///< of a row with several points, sorted
   std::vector<double> sums;                ///< (unknowns) its entries, at their columns
   std::vector<std::uint8_t> is_column;     ///< (unknowns) 1 at its columns
+  int judged_point = -1;                   ///< the point that `is_plain` belongs to
+  bool is_plain = true;                    ///< its nodes are unknowns, all different
 
   explicit Workspace(int unknowns) : sums(unknowns, 0.0), is_column(unknowns, 0) {}
+};
+
+/// What rows are made of beside their terms.
+struct Scene {
+  const Weights& weights;
+  const NodeUnknowns& unknowns;
+  int fields;
+
+  std::int64_t column(int node, int field) const {
+    return static_cast<std::int64_t>(unknowns.of(node)) * fields + field;
+  }
 };
 
 /// True when all terms name one point, the case that assembles at full speed.
@@ -54,7 +67,7 @@ int mark_fields(Terms terms, int fields, std::vector<std::uint8_t>& used) {
 }
 
 /// Sums the entries of all terms by column, whatever their points, in the order of the terms.
-void gather_entries(Terms terms, const Weights& weights, int fields, Workspace& work) {
+void gather_entries(Terms terms, const Scene& scene, Workspace& work) {
   for (std::int64_t column : work.columns) {
     work.sums[column] = 0;
     work.is_column[column] = 0;
@@ -67,42 +80,60 @@ void gather_entries(Terms terms, const Weights& weights, int fields, Workspace& 
   };
   for (const Term& term : terms) {
     if (term.derivative == value_only) {
-      add(static_cast<std::int64_t>(term.point) * fields + term.field, term.coefficient);
+      add(scene.column(term.point, term.field),
+          scene.unknowns.sign(term.point, term.field) * term.coefficient);
       continue;
     }
+    const Weights& weights = scene.weights;
     const std::span<const int> nodes = weights.nodes(term.point);
     const double* values =
         weights.values.data() + weights.offsets[term.point] * weights.per_entry + term.derivative;
     for (std::size_t j = 0; j < nodes.size(); ++j) {
-      add(static_cast<std::int64_t>(nodes[j]) * fields + term.field,
-          term.coefficient * values[j * weights.per_entry]);
+      add(scene.column(nodes[j], term.field), scene.unknowns.sign(nodes[j], term.field) *
+                                                  term.coefficient * values[j * weights.per_entry]);
     }
   }
   std::sort(work.columns.begin(), work.columns.end());
 }
 
-/// True when the row is derivatives of fields at one point, without bare values.
-bool is_compact(Terms terms) {
-  return has_single_point(terms) && std::none_of(terms.begin(), terms.end(), [](const Term& term) {
-           return term.derivative == value_only;
-         });
+/// True when the nodes in a point's row are unknowns themselves.
+bool has_plain_nodes(int point, const Scene& scene, Workspace& work) {
+  if (scene.unknowns.is_identity()) return true;
+  if (work.judged_point != point) {
+    const std::span<const int> nodes = scene.weights.nodes(point);
+    work.judged_point = point;
+    work.is_plain = std::all_of(nodes.begin(), nodes.end(),
+                                [&](int node) { return scene.unknowns.of(node) == node; });
+  }
+  return work.is_plain;
 }
 
-std::int64_t count_entries(Terms terms, const Weights& weights, int fields, Workspace& work) {
+/// True when the row is derivatives of fields at one point, without bare values, and no two of its
+/// nodes stand for one unknown.
+bool is_compact(Terms terms, const Scene& scene, Workspace& work) {
+  return has_single_point(terms) &&
+         std::none_of(terms.begin(), terms.end(),
+                      [](const Term& term) { return term.derivative == value_only; }) &&
+         has_plain_nodes(terms.front().point, scene, work);
+}
+
+std::int64_t count_entries(Terms terms, const Scene& scene, Workspace& work) {
   if (terms.empty()) return 0;
-  if (is_compact(terms)) {
-    const auto stencil = static_cast<std::int64_t>(weights.nodes(terms.front().point).size());
-    return mark_fields(terms, fields, work.used) * stencil;
+  if (is_compact(terms, scene, work)) {
+    const auto stencil = static_cast<std::int64_t>(scene.weights.nodes(terms.front().point).size());
+    return mark_fields(terms, scene.fields, work.used) * stencil;
   }
   if (terms.size() == 1 && is_bare_value(terms)) return 1;
-  gather_entries(terms, weights, fields, work);
+  gather_entries(terms, scene, work);
   return static_cast<std::int64_t>(work.columns.size());
 }
 
 /// Fills a compact row: for every stencil node the used fields, a product (fields x derivatives)
 /// with the node's weights.
-void fill_compact(Terms terms, const Weights& weights, int fields, Workspace& work,
-                  std::int64_t* columns, double* values) {
+void fill_compact(Terms terms, const Scene& scene, Workspace& work, std::int64_t* columns,
+                  double* values) {
+  const Weights& weights = scene.weights;
+  const int fields = scene.fields;
   const int point = terms.front().point;
   const std::span<const int> nodes = weights.nodes(point);
   if (work.ordered_point != point) {  // sorted once per stencil, not once per row
@@ -129,13 +160,13 @@ void fill_compact(Terms terms, const Weights& weights, int fields, Workspace& wo
   }
 }
 
-void fill_row(Terms terms, const Weights& weights, int fields, Workspace& work,
-              std::int64_t* columns, double* values) {
-  if (is_compact(terms)) {
-    fill_compact(terms, weights, fields, work, columns, values);
+void fill_row(Terms terms, const Scene& scene, Workspace& work, std::int64_t* columns,
+              double* values) {
+  if (is_compact(terms, scene, work)) {
+    fill_compact(terms, scene, work, columns, values);
     return;
   }
-  gather_entries(terms, weights, fields, work);
+  gather_entries(terms, scene, work);
   for (std::size_t i = 0; i < work.columns.size(); ++i) {
     columns[i] = work.columns[i];
     values[i] = work.sums[work.columns[i]];
@@ -158,11 +189,11 @@ double scale_row(double* values, std::int64_t count, double& right_hand_side) {
 
 /// Runs `work(row, workspace)` for all rows in parallel, with one workspace a thread.
 template <class Work>
-void for_each_row(int rows, const Work& work) {
+void for_each_row(int rows, int unknowns, const Work& work) {
   ParallelErrors errors;
 #pragma omp parallel
   {
-    Workspace workspace(rows);  // as many rows as unknowns
+    Workspace workspace(unknowns);
 #pragma omp for schedule(static)
     for (int row = 0; row < rows; ++row) {
       errors.guard(row, [&] { work(row, workspace); });
@@ -185,37 +216,49 @@ void check_rows(const std::vector<double>& largest, const Eigen::VectorXd& right
   }
 }
 
+void weigh_rows(const std::vector<double>& row_weights, LinearSystem& system) {
+  for (std::size_t row = 0; row < row_weights.size(); ++row) {
+    for (std::int64_t i = system.offsets[row]; i < system.offsets[row + 1]; ++i) {
+      system.values[i] *= row_weights[row];
+    }
+    system.right_hand_side[static_cast<Eigen::Index>(row)] *= row_weights[row];
+  }
+}
+
 }  // namespace
 
-LinearSystem assemble(const EquationList& equations, const Weights& weights, int nodes,
-                      int fields) {
+LinearSystem assemble(const EquationList& equations, const Weights& weights,
+                      const NodeUnknowns& unknowns, int fields) {
   const int rows = equations.size();
-  if (rows != nodes * fields) {
-    throw CaseError(
-        fmt::format("{} equations for {} unknowns; a problem states one per node and field", rows,
-                    nodes * fields));
+  const int columns = unknowns.count * fields;
+  if (rows < columns) {
+    throw CaseError(fmt::format("{} equations for {} unknowns; one per node and field are needed",
+                                rows, columns));
   }
+  const Scene scene{weights, unknowns, fields};
   LinearSystem system;
   system.fields = fields;
+  system.width = columns;
   system.offsets.assign(rows + 1, 0);
   system.right_hand_side =
       Eigen::Map<const Eigen::VectorXd>(equations.right_hand_sides.data(), rows);
   std::vector<double> largest(rows);
-  for_each_row(rows, [&](int row, Workspace& work) {
-    system.offsets[row + 1] = count_entries(terms_of(equations, row), weights, fields, work);
+  for_each_row(rows, columns, [&](int row, Workspace& work) {
+    system.offsets[row + 1] = count_entries(terms_of(equations, row), scene, work);
   });
   for (int row = 0; row < rows; ++row) system.offsets[row + 1] += system.offsets[row];
   system.columns.resize(system.offsets.back());
   system.values.resize(system.offsets.back());
-  for_each_row(rows, [&](int row, Workspace& work) {
+  for_each_row(rows, columns, [&](int row, Workspace& work) {
     const std::int64_t begin = system.offsets[row];
     const std::int64_t count = system.offsets[row + 1] - begin;
     if (count == 0) return;
-    fill_row(terms_of(equations, row), weights, fields, work, system.columns.data() + begin,
+    fill_row(terms_of(equations, row), scene, work, system.columns.data() + begin,
              system.values.data() + begin);
     largest[row] = scale_row(system.values.data() + begin, count, system.right_hand_side[row]);
   });
   check_rows(largest, system.right_hand_side, fields);
+  if (!equations.row_weights.empty()) weigh_rows(equations.row_weights, system);
   return system;
 }
 

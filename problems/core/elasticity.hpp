@@ -11,6 +11,13 @@ struct Lame {
   double lambda, mu;
 };
 
+/// Gradients of the Lame constants, stress over length.
+template <int Dim>
+struct LameGradient {
+  Point<Dim> lambda = Point<Dim>::Zero();
+  Point<Dim> mu = Point<Dim>::Zero();
+};
+
 /// Lame constants from Young's modulus and Poisson's ratio (plane strain in 2D).
 inline Lame lame_constants(double young, double poisson) {
   return {young * poisson / ((1 + poisson) * (1 - 2 * poisson)), young / (2 * (1 + poisson))};
@@ -33,6 +40,18 @@ void add_equilibrium(EquationWriter<Dim>& write, const Lame& material, int i) {
     const double own = i == j ? material.lambda + 2 * material.mu : material.mu;
     write.add(i, partial<Dim>(j, j), own);
     if (i != j) write.add(j, partial<Dim>(i, j), material.lambda + material.mu);
+  }
+}
+
+/// Adds component i of share * grad lambda div u + 2 eps grad mu, what equilibrium has beside the
+/// above where the material varies. Source: thesis (4.21), corrected: the strain is doubled.
+template <int Dim>
+void add_gradient_terms(EquationWriter<Dim>& write, const LameGradient<Dim>& gradient, double share,
+                        int i) {
+  for (int j = 0; j < Dim; ++j) {
+    write.add(j, partial<Dim>(j), share * gradient.lambda[i]);
+    write.add(i, partial<Dim>(j), gradient.mu[j]);
+    write.add(j, partial<Dim>(i), gradient.mu[j]);
   }
 }
 

@@ -24,6 +24,7 @@ struct EquationList {
   std::vector<std::int64_t> offsets{0};  ///< (rows + 1) into `terms`
   std::vector<Term> terms;
   std::vector<double> right_hand_sides;  ///< (rows)
+  std::vector<double> row_weights;       ///< (rows) factors of rows after scaling, empty for ones
 
   int size() const { return static_cast<int>(right_hand_sides.size()); }
 };

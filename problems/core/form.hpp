@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -9,9 +10,23 @@
 #include "methods/core/options.hpp"
 #include "methods/core/registry.hpp"
 #include "problems/core/equation.hpp"
-#include "problems/core/problem.hpp"
+#include "problems/core/flux_problem.hpp"
+#include "problems/core/unknowns.hpp"
 
 namespace strongpoint {
+
+/// The discrete system of one problem on one cloud, before weights are known.
+template <int Dim>
+struct Plan {
+  Derivatives<Dim> derivatives;  ///< whose weights the equations read, over all points
+  Sites<Dim> sites;              ///< without what the method's needs add; the first nodes and the
+                                 ///< first points are the cloud's nodes, in their order
+  NodeUnknowns unknowns;
+  /// Writes the equations with weights for these derivatives: row = unknown node * fields + field,
+  /// and any number of further rows when the system is solved by least squares. The problem and the
+  /// cloud must outlive it.
+  std::function<EquationList(const Derivatives<Dim>&)> equations;
+};
 
 /// How the discrete system is written: where equations are put, and which sites that takes.
 template <int Dim>
@@ -26,18 +41,16 @@ class Form {
   /// both can.
   virtual std::string unsupported(const SteadyProblem<Dim>& problem,
                                   const Method<Dim>& method) const = 0;
-  /// Derivatives whose weights the equations read, over all nodes that need a stencil.
-  virtual Derivatives<Dim> derivatives(const SteadyProblem<Dim>& problem,
-                                       const PointCloud<Dim>& cloud,
-                                       const Method<Dim>& method) const = 0;
-  /// The sites the problem needs on this cloud, without what the method's needs add. The first
-  /// points are the nodes, in their order.
-  virtual Sites<Dim> sites(const SteadyProblem<Dim>& problem, const PointCloud<Dim>& cloud,
-                           const Method<Dim>& method) const = 0;
-  /// One row per node and field, row = node * fields + field.
-  virtual EquationList equations(const SteadyProblem<Dim>& problem, const PointCloud<Dim>& cloud,
-                                 const Derivatives<Dim>& derivatives) const = 0;
+  /// Lays out the discrete system of a problem that is supported. Throws SkipCase and CaseError.
+  virtual Plan<Dim> plan(const SteadyProblem<Dim>& problem, const PointCloud<Dim>& cloud,
+                         const Method<Dim>& method) const = 0;
 };
+
+/// The flux problem that a steady problem is, or null.
+template <int Dim>
+const FluxProblem<Dim>* flux_problem(const SteadyProblem<Dim>& problem) {
+  return dynamic_cast<const FluxProblem<Dim>*>(&problem);
+}
 
 /// A registered form.
 struct FormEntry {

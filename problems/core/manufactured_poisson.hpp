@@ -27,31 +27,34 @@ class ManufacturedPoisson final : public FluxProblem<Dim> {
     return is_neumann(marks) ? Derivatives<Dim>{partial<Dim>(0)} : Derivatives<Dim>{};
   }
 
-  void equations(const Node<Dim>& node, EquationWriter<Dim>& write) const override {
-    if (node.marks.empty()) {
-      for (const MultiIndex<Dim>& alpha : laplacian_) write.add(0, alpha, 1);
-      write.equals(source(0, node.x));
-    } else if (is_neumann(node.marks)) {
+  void governing(const Place<Dim>& place, EquationWriter<Dim>& write) const override {
+    for (const MultiIndex<Dim>& alpha : laplacian_) write.add(0, alpha, 1);
+    write.equals(source(0, place));
+  }
+  void boundary(const Node<Dim>& node, EquationWriter<Dim>& write) const override {
+    if (is_neumann(node.marks)) {
       write.add(0, partial<Dim>(0), 1);
-      write.equals(condition(0, right_side, node.x).given);
+      write.equals(given(0, right_side, node.x));
     } else {
       write.add(0, MultiIndex<Dim>{}, 1);
       write.equals(value_at(node.x));
     }
   }
 
-  void flux(int, const Point<Dim>& direction, EquationWriter<Dim>& write) const override {
+  void flux(int, const Place<Dim>&, const Point<Dim>& direction,
+            EquationWriter<Dim>& write) const override {
     for (int c = 0; c < Dim; ++c) write.add(0, partial<Dim>(c), direction[c]);
   }
-  double source(int, const Point<Dim>& x) const override {
-    return exact_derivatives<Dim>(Exact{}, x, laplacian_).sum();
+  double source(int, const Place<Dim>& place) const override {
+    return exact_derivatives<Dim>(Exact{}, place.x, laplacian_).sum();
   }
-  SideCondition condition(int, int side, const Point<Dim>& x) const override {
-    if (right_ == RightSide::dirichlet || side != right_side) {
-      return {SideCondition::Kind::value, value_at(x)};
-    }
-    return {SideCondition::Kind::flux,
-            exact_derivatives<Dim>(Exact{}, x, Derivatives<Dim>{partial<Dim>(0)})[0]};
+  Known known(int, int side) const override {
+    const bool is_flux = right_ == RightSide::neumann && side == right_side;
+    return is_flux ? Known::flux : Known::value;
+  }
+  double given(int field, int side, const Point<Dim>& x) const override {
+    if (known(field, side) == Known::value) return value_at(x);
+    return exact_derivatives<Dim>(Exact{}, x, Derivatives<Dim>{partial<Dim>(0)})[0];
   }
 
   std::vector<std::string> quantities() const override { return {"u_error", "u_max_error"}; }

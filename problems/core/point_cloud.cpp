@@ -50,6 +50,16 @@ double PointCloud<Dim>::spacing() const {
 }
 
 template <int Dim>
+Sites<Dim> sites_of_cloud(const PointCloud<Dim>& cloud) {
+  Sites<Dim> sites = sites_at_nodes<Dim>(cloud.nodes);
+  sites.block = cloud.block;
+  for (int i = 0; i < cloud.size(); ++i) {
+    if (cloud.is_boundary(i)) sites.anchor_zone[i] = Zone::boundary;
+  }
+  return sites;
+}
+
+template <int Dim>
 void CloudBuilder<Dim>::add(const Point<Dim>& x, std::vector<BoundaryMark<Dim>> marks) {
   const auto by_side = [](const auto& a, const auto& b) { return a.side < b.side; };
   const auto same_side = [](const auto& a, const auto& b) { return a.side == b.side; };
@@ -83,6 +93,9 @@ PointCloud<Dim> CloudBuilder<Dim>::finish(double measure) {
 template struct PointCloud<1>;
 template struct PointCloud<2>;
 template struct PointCloud<3>;
+template Sites<1> sites_of_cloud(const PointCloud<1>&);
+template Sites<2> sites_of_cloud(const PointCloud<2>&);
+template Sites<3> sites_of_cloud(const PointCloud<3>&);
 template class CloudBuilder<1>;
 template class CloudBuilder<2>;
 template class CloudBuilder<3>;

@@ -31,10 +31,16 @@ struct PointCloud {
   std::span<const BoundaryMark<Dim>> marks_of(int node) const {
     return {marks.data() + mark_offsets[node], marks.data() + mark_offsets[node + 1]};
   }
+  /// The patch a node belongs to.
+  int patch_of(int) const { return 0; }
   bool is_boundary(int node) const { return mark_offsets[node + 1] > mark_offsets[node]; }
   /// (measure / N)^(1/Dim), the `spacing` of the tables.
   double spacing() const;
 };
+
+/// The sites of a cloud with a stencil at every node, whatever a problem reads there.
+template <int Dim>
+Sites<Dim> sites_of_cloud(const PointCloud<Dim>& cloud);
 
 /// Collects nodes one by one.
 template <int Dim>

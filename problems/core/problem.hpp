@@ -15,12 +15,23 @@
 
 namespace strongpoint {
 
-/// A node as a problem sees it when it states its equations.
+/// A position, and the patch of the domain whose data hold there: patches share positions along
+/// their interfaces.
+template <int Dim>
+struct Place {
+  Point<Dim> x;
+  int patch = 0;
+};
+
+/// A node as a problem sees it when it states its boundary conditions.
 template <int Dim>
 struct Node {
   int id;
   Point<Dim> x;
   std::span<const BoundaryMark<Dim>> marks;  ///< empty inside
+  int patch = 0;
+
+  Place<Dim> place() const { return {x, patch}; }
 
   bool on(int side) const {
     for (const BoundaryMark<Dim>& mark : marks) {
@@ -29,6 +40,12 @@ struct Node {
     return false;
   }
 };
+
+/// A node of a cloud.
+template <int Dim>
+Node<Dim> node_of(const PointCloud<Dim>& cloud, int id) {
+  return {id, cloud.nodes.col(id), cloud.marks_of(id), cloud.patch_of(id)};
+}
 
 /// What every problem has: a domain.
 template <int Dim>
@@ -47,8 +64,8 @@ template <int Dim>
 struct Solution {
   const PointCloud<Dim>& cloud;
   Eigen::MatrixXd fields;               ///< (fields, N) values at the nodes
-  Eigen::MatrixXd parameters;           ///< (fields, N) what the weights multiply: the values, with
-                                        ///< a method that interpolates
+  Eigen::MatrixXd parameters;           ///< (fields, nodes of the sites) what the weights multiply:
+                                        ///< the values, with a method that interpolates
   const Weights& weights;               ///< (points x nodes), the nodes' own points first
   const Derivatives<Dim>& derivatives;  ///< of the weights
 
@@ -57,7 +74,15 @@ struct Solution {
   Eigen::VectorXd derivative(int field, const MultiIndex<Dim>& alpha) const;
 };
 
-/// Equations per node for a set of fields, solved once.
+/// A flat part of the boundary across which the solution continues as its mirror image: vectors
+/// with their component along the axis reversed, scalars as they are.
+struct SymmetryPlane {
+  int side;
+  int axis;       ///< the plane is x_axis = offset
+  double offset;  ///< unit of length
+};
+
+/// Equations for a set of fields, solved once.
 template <int Dim>
 class SteadyProblem : public Problem<Dim> {
  public:
@@ -66,8 +91,28 @@ class SteadyProblem : public Problem<Dim> {
   /// Derivatives that the equations at a node with these boundary marks read. The value alone means
   /// that no stencil is needed with a method that interpolates.
   virtual Derivatives<Dim> derivatives(std::span<const BoundaryMark<Dim>> marks) const = 0;
-  /// Writes one equation per field for a node.
-  virtual void equations(const Node<Dim>& node, EquationWriter<Dim>& write) const = 0;
+  /// Writes the differential equations at a place, one per field.
+  virtual void governing(const Place<Dim>& place, EquationWriter<Dim>& write) const = 0;
+  /// Writes what replaces them at a boundary node, one equation per field; where the value of a
+  /// field is given, in that field's place.
+  virtual void boundary(const Node<Dim>& node, EquationWriter<Dim>& write) const = 0;
+  /// Writes the equations of a ghost node, which stands outside of a boundary node, one per field.
+  /// Fields whose boundary condition is not written at the node have it here.
+  virtual void ghost(const Node<Dim>& node, EquationWriter<Dim>& write) const {
+    boundary(node, write);
+  }
+  /// Writes the equations of a node: those at the boundary where it lies on it.
+  void equations(const Node<Dim>& node, EquationWriter<Dim>& write) const {
+    if (node.marks.empty()) {
+      governing(node.place(), write);
+    } else {
+      boundary(node, write);
+    }
+  }
+  /// The axis along which a field is a component of a vector, -1 for a scalar.
+  virtual int vector_axis(int) const { return -1; }
+  /// Symmetry planes among the sides.
+  virtual std::vector<SymmetryPlane> symmetry_planes() const { return {}; }
   /// Derivatives that `measure` reads at every node, beside those of the equations.
   virtual Derivatives<Dim> measured_derivatives() const { return {}; }
   /// Names of what `measure` gives.

@@ -18,8 +18,10 @@ struct LinearSystem {
   std::vector<double> values;            ///< (entries)
   Eigen::VectorXd right_hand_side;       ///< (rows)
   int fields = 1;                        ///< unknown = node * fields + field
+  std::int64_t width = 0;                ///< number of unknowns; 0: as many as rows
 
   std::int64_t rows() const { return static_cast<std::int64_t>(offsets.size()) - 1; }
+  std::int64_t unknowns() const { return width > 0 ? width : rows(); }
 };
 
 /// A solution of a linear system.

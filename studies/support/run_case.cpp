@@ -48,9 +48,9 @@ void set_threads(const RunOptions& options) {
 template <int Dim>
 Eigen::MatrixXd nodal_values(const Discretisation<Dim>& scene, const Eigen::MatrixXd& parameters) {
   const MultiIndex<Dim> value{};
-  if (!scene.derivatives.contains(value)) return parameters;
+  if (!scene.derivatives.contains(value)) return parameters.leftCols(scene.cloud.size());
   const int slot = scene.derivatives.index(value);
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(parameters.rows(), parameters.cols());
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(parameters.rows(), scene.cloud.size());
   for (int p = 0; p < scene.cloud.size(); ++p) {  // points beyond are no nodes
     const std::span<const int> nodes = scene.weights.nodes(p);
     const Eigen::Map<const Eigen::MatrixXd> row = scene.weights.row(p);
@@ -83,26 +83,34 @@ void write_fields(const RunOptions& options, const CaseKey& key, const Discretis
 }
 
 template <int Dim>
+std::vector<int> field_axes(const SteadyProblem<Dim>& problem) {
+  std::vector<int> axes;
+  for (int f = 0; f < static_cast<int>(problem.fields().size()); ++f) {
+    axes.push_back(problem.vector_axis(f));
+  }
+  return axes;
+}
+
+template <int Dim>
 CaseResult run_once(const SteadyProblem<Dim>& problem, const CaseKey& key,
                     const RunOptions& options) {
   const StageClock clock(options.threads);
   CaseResult result;
   StageTimes& times = result.times;
   reset_peak_memory();
-  const Discretisation<Dim> scene = discretise(problem, key, options, times);
+  const auto made = discretise(problem, key, options, times);
+  const Discretisation<Dim>& scene = *made;
   const std::vector<std::string> fields = problem.fields();
   const int field_count = static_cast<int>(fields.size());
   const LinearSystem system = clock.time(times.assemble, [&] {
-    const EquationList equations =
-        make_form<Dim>(key.form)->equations(problem, scene.cloud, scene.derivatives);
-    return assemble(equations, scene.weights, scene.cloud.size(), field_count);
+    return assemble(scene.equations(scene.derivatives), scene.weights, scene.unknowns, field_count);
   });
   const LinearSolution linear = clock.time(times.solve, [&] { return solve(system, key.solver); });
   times.peak_mb = peak_memory_mb();
   times.residual = linear.residual;
 
-  const Eigen::MatrixXd parameters =
-      Eigen::Map<const Eigen::MatrixXd>(linear.x.data(), field_count, scene.cloud.size());
+  const Eigen::MatrixXd parameters = scene.unknowns.spread(
+      Eigen::Map<const Eigen::MatrixXd>(linear.x.data(), field_count, scene.unknowns.count));
   const Solution<Dim> solution{scene.cloud, nodal_values(scene, parameters), parameters,
                                scene.weights, scene.derivatives};
   if (options.vtk) write_fields<Dim>(options, key, scene, fields, solution.fields);
@@ -111,22 +119,12 @@ CaseResult run_once(const SteadyProblem<Dim>& problem, const CaseKey& key,
   for (std::size_t q = 0; q < names.size(); ++q)
     result.quantities.push_back({names[q], values[q], {}, {}});
   result.nodes = scene.cloud.size();
-  result.unknowns = system.rows();
+  result.unknowns = system.unknowns();
   result.spacing = scene.cloud.spacing();
   return result;
 }
 
 }  // namespace
-
-template <int Dim>
-Sites<Dim> sites_of_cloud(const PointCloud<Dim>& cloud) {
-  Sites<Dim> sites = sites_at_nodes<Dim>(cloud.nodes);
-  sites.block = cloud.block;
-  for (int i = 0; i < cloud.size(); ++i) {
-    if (cloud.is_boundary(i)) sites.anchor_zone[i] = Zone::boundary;
-  }
-  return sites;
-}
 
 template <int Dim>
 PointCloud<Dim> make_case_cloud(const Domain<Dim>& domain, const CaseKey& key,
@@ -181,8 +179,9 @@ void compute_weights(Discretisation<Dim>& scene, const Domain<Dim>& domain,
 }
 
 template <int Dim>
-Discretisation<Dim> discretise(const SteadyProblem<Dim>& problem, const CaseKey& key,
-                               const RunOptions& options, StageTimes& times, Upto upto) {
+std::unique_ptr<Discretisation<Dim>> discretise(const SteadyProblem<Dim>& problem,
+                                                const CaseKey& key, const RunOptions& options,
+                                                StageTimes& times, Upto upto) {
   set_threads(options);
   const StageClock clock(options.threads);
   const Choices<Dim> choices(key);
@@ -190,17 +189,22 @@ Discretisation<Dim> discretise(const SteadyProblem<Dim>& problem, const CaseKey&
   if (const std::string why = form->unsupported(problem, *choices.method); !why.empty()) {
     throw SkipCase(why);
   }
-  Discretisation<Dim> scene;
+  auto made = std::make_unique<Discretisation<Dim>>();  // the equations refer to its cloud
+  Discretisation<Dim>& scene = *made;
   scene.cloud =
       clock.time(times.cloud, [&] { return make_case_cloud<Dim>(problem.domain(), key, options); });
   clock.time(times.prepare, [&] {
-    scene.derivatives = form->derivatives(problem, scene.cloud, *choices.method);
+    Plan<Dim> plan = form->plan(problem, scene.cloud, *choices.method);
+    scene.derivatives = plan.derivatives;
     scene.derivatives.merge(problem.measured_derivatives());
-    scene.sites = form->sites(problem, scene.cloud, *choices.method);
+    scene.sites = std::move(plan.sites);
+    scene.unknowns = std::move(plan.unknowns);
+    scene.unknowns.field_axis = field_axes(problem);
+    scene.equations = std::move(plan.equations);
   });
   const auto& advance = upto == Upto::weights ? compute_weights<Dim> : choose_stencils<Dim>;
   advance(scene, problem.domain(), choices, options, clock, times);
-  return scene;
+  return made;
 }
 
 std::vector<std::string> steady_quantities(const CaseKey& key) {
@@ -237,9 +241,6 @@ StageTimes fastest(const StageTimes& a, const StageTimes& b) {
 template PointCloud<1> make_case_cloud(const Domain<1>&, const CaseKey&, const RunOptions&);
 template PointCloud<2> make_case_cloud(const Domain<2>&, const CaseKey&, const RunOptions&);
 template PointCloud<3> make_case_cloud(const Domain<3>&, const CaseKey&, const RunOptions&);
-template Sites<1> sites_of_cloud(const PointCloud<1>&);
-template Sites<2> sites_of_cloud(const PointCloud<2>&);
-template Sites<3> sites_of_cloud(const PointCloud<3>&);
 template void choose_stencils(Discretisation<1>&, const Domain<1>&, const Choices<1>&,
                               const RunOptions&, const StageClock&, StageTimes&);
 template void choose_stencils(Discretisation<2>&, const Domain<2>&, const Choices<2>&,
@@ -252,11 +253,11 @@ template void compute_weights(Discretisation<2>&, const Domain<2>&, const Choice
                               const RunOptions&, const StageClock&, StageTimes&);
 template void compute_weights(Discretisation<3>&, const Domain<3>&, const Choices<3>&,
                               const RunOptions&, const StageClock&, StageTimes&);
-template Discretisation<1> discretise(const SteadyProblem<1>&, const CaseKey&, const RunOptions&,
-                                      StageTimes&, Upto);
-template Discretisation<2> discretise(const SteadyProblem<2>&, const CaseKey&, const RunOptions&,
-                                      StageTimes&, Upto);
-template Discretisation<3> discretise(const SteadyProblem<3>&, const CaseKey&, const RunOptions&,
-                                      StageTimes&, Upto);
+template std::unique_ptr<Discretisation<1>> discretise(const SteadyProblem<1>&, const CaseKey&,
+                                                       const RunOptions&, StageTimes&, Upto);
+template std::unique_ptr<Discretisation<2>> discretise(const SteadyProblem<2>&, const CaseKey&,
+                                                       const RunOptions&, StageTimes&, Upto);
+template std::unique_ptr<Discretisation<3>> discretise(const SteadyProblem<3>&, const CaseKey&,
+                                                       const RunOptions&, StageTimes&, Upto);
 
 }  // namespace strongpoint

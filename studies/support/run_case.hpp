@@ -21,6 +21,9 @@ struct Discretisation {
   Stencils stencils;
   Derivatives<Dim> derivatives;
   Weights weights;
+  NodeUnknowns unknowns;  ///< of a steady problem
+  /// Of a steady problem: writes its equations. The problem and the cloud must live.
+  std::function<EquationList(const Derivatives<Dim>&)> equations;
 };
 
 /// The method and the rule of a case.
@@ -33,10 +36,6 @@ struct Choices {
       : method(make_method<Dim>(key.method).made),
         rule(key.stencil == every_node ? nullptr : make_rule<Dim>(key.stencil).made) {}
 };
-
-/// The sites of a cloud with a stencil at every node, whatever a problem reads there.
-template <int Dim>
-Sites<Dim> sites_of_cloud(const PointCloud<Dim>& cloud);
 
 /// Chooses stencils on sites already made, adding to these only what the method needs; the time of
 /// each stage is added to `times`. Throws SkipCase when the method cannot give the derivatives.
@@ -54,11 +53,11 @@ void compute_weights(Discretisation<Dim>& scene, const Domain<Dim>& domain,
 /// How far a problem is discretised.
 enum class Upto { stencils, weights };
 
-/// Discretises a steady problem. Throws SkipCase and CaseError.
+/// Discretises a steady problem, which must outlive the result. Throws SkipCase and CaseError.
 template <int Dim>
-Discretisation<Dim> discretise(const SteadyProblem<Dim>& problem, const CaseKey& key,
-                               const RunOptions& options, StageTimes& times,
-                               Upto upto = Upto::weights);
+std::unique_ptr<Discretisation<Dim>> discretise(const SteadyProblem<Dim>& problem,
+                                                const CaseKey& key, const RunOptions& options,
+                                                StageTimes& times, Upto upto = Upto::weights);
 
 /// Makes the cloud of a case.
 template <int Dim>

@@ -21,39 +21,32 @@ class Collocation final : public Form<Dim> {
     return {};
   }
 
-  Derivatives<Dim> derivatives(const SteadyProblem<Dim>& problem, const PointCloud<Dim>& cloud,
-                               const Method<Dim>& method) const override {
-    Derivatives<Dim> all;
-    if (!method.promises().interpolates) all.merge({MultiIndex<Dim>{}});
+  Plan<Dim> plan(const SteadyProblem<Dim>& problem, const PointCloud<Dim>& cloud,
+                 const Method<Dim>& method) const override {
+    const bool values_are_known = method.promises().interpolates;
+    const bool reads_every_node = problem.measured_derivatives().size() > 0;
+    Plan<Dim> plan;
+    plan.unknowns.count = cloud.size();
+    plan.sites = sites_of_cloud<Dim>(cloud);
+    if (!values_are_known) plan.derivatives.merge({MultiIndex<Dim>{}});
     for (int i = 0; i < cloud.size(); ++i) {
       for (const MultiIndex<Dim>& alpha : problem.derivatives(cloud.marks_of(i))) {
-        if (order_of<Dim>(alpha) > 0 && !all.contains(alpha)) all.merge({alpha});
+        if (order_of<Dim>(alpha) > 0) plan.derivatives.merge({alpha});
+      }
+      if (values_are_known && !reads_every_node && reads_value_only(problem, cloud.marks_of(i))) {
+        plan.sites.wanted[i] = 0;
       }
     }
-    return all;
-  }
-
-  Sites<Dim> sites(const SteadyProblem<Dim>& problem, const PointCloud<Dim>& cloud,
-                   const Method<Dim>& method) const override {
-    const bool values_are_known = method.promises().interpolates;
-    Sites<Dim> sites = sites_at_nodes<Dim>(cloud.nodes);
-    sites.block = cloud.block;
-    for (int i = 0; i < cloud.size(); ++i) {
-      if (cloud.is_boundary(i)) sites.anchor_zone[i] = Zone::boundary;
-      if (values_are_known && reads_value_only(problem, cloud.marks_of(i))) sites.wanted[i] = 0;
-    }
-    return sites;
-  }
-
-  EquationList equations(const SteadyProblem<Dim>& problem, const PointCloud<Dim>& cloud,
-                         const Derivatives<Dim>& derivatives) const override {
-    EquationList list;
-    EquationWriter<Dim> write(list, derivatives);
-    for (int i = 0; i < cloud.size(); ++i) {
-      write.at(i);
-      problem.equations(Node<Dim>{i, cloud.nodes.col(i), cloud.marks_of(i)}, write);
-    }
-    return list;
+    plan.equations = [&problem, &cloud](const Derivatives<Dim>& derivatives) {
+      EquationList list;
+      EquationWriter<Dim> write(list, derivatives);
+      for (int i = 0; i < cloud.size(); ++i) {
+        write.at(i);
+        problem.equations(node_of(cloud, i), write);
+      }
+      return list;
+    };
+    return plan;
   }
 };
 

@@ -13,8 +13,6 @@
 namespace strongpoint {
 namespace {
 
-using Kind = SideCondition::Kind;
-
 /// A quartic spline of the distance, 1 at the centre, with value and slope zero at the radius.
 /// Source: Atluri & Zhu 1998 (24).
 struct TestFunction {
@@ -38,13 +36,8 @@ struct TestDomain {
   std::vector<std::uint8_t> fields;  ///< 1: the weak equation; 0: the value is given
 };
 
-/// The flux problem that a steady problem is, or null.
-const FluxProblem<2>* flux_problem(const SteadyProblem<2>& problem) {
-  return dynamic_cast<const FluxProblem<2>*>(&problem);
-}
-
-bool gives_value(const FluxProblem<2>& problem, int field, int side, const Point<2>& x) {
-  return problem.condition(field, side, x).kind == Kind::value;
+bool gives_value(const FluxProblem<2>& problem, int field, int side) {
+  return problem.known(field, side) == Known::value;
 }
 
 /// True when the unknown flux at a boundary point enters a row of the node: some of its fields has
@@ -53,7 +46,7 @@ bool has_unknown_flux(const FluxProblem<2>& problem, const TestDomain& domain,
                       const EdgePoint& edge) {
   for (std::size_t field = 0; field < domain.fields.size(); ++field) {
     const bool is_weak = domain.fields[field] != 0;
-    if (is_weak && gives_value(problem, static_cast<int>(field), edge.side, edge.x)) return true;
+    if (is_weak && gives_value(problem, static_cast<int>(field), edge.side)) return true;
   }
   return false;
 }
@@ -63,10 +56,10 @@ class Mlpg {
  public:
   Mlpg(double radius, DiscCounts counts) : radius_(radius), counts_(counts) {}
 
-  /// Calls `visit(node, TestDomain)` for every node in order.
-  template <class Visit>
-  void for_each_domain(const FluxProblem<2>& problem, const PointCloud<2>& cloud,
-                       Visit&& visit) const {
+  /// The test domains of all nodes.
+  std::vector<TestDomain> domains(const FluxProblem<2>& problem, const PointCloud<2>& cloud) const {
+    std::vector<TestDomain> all;
+    all.reserve(cloud.size());
     const DiscQuadrature quadrature(problem.domain(), counts_);
     const auto search = make_search<2>("auto", cloud.nodes);
     const Eigen::VectorXd spacing = local_spacing<2>(cloud.nodes, cloud.nodes, *search);
@@ -78,7 +71,7 @@ class Mlpg {
       if (cloud.is_boundary(i)) {
         for (const BoundaryMark<2>& mark : cloud.marks_of(i)) {
           for (std::size_t f = 0; f < fields; ++f) {
-            if (gives_value(problem, static_cast<int>(f), mark.side, x)) domain.fields[f] = 0;
+            if (gives_value(problem, static_cast<int>(f), mark.side)) domain.fields[f] = 0;
           }
         }
         if (std::count(domain.fields.begin(), domain.fields.end(), 1) > 0) {
@@ -92,18 +85,20 @@ class Mlpg {
         }
         domain.rule = quadrature.whole(x, domain.test.radius);
       }
-      visit(i, domain);
+      all.push_back(std::move(domain));
     }
+    return all;
   }
 
-  Sites<2> sites(const FluxProblem<2>& problem, const PointCloud<2>& cloud,
-                 const Method<2>& method) const {
+  static Sites<2> sites(const FluxProblem<2>& problem, const PointCloud<2>& cloud,
+                        const Method<2>& method, const std::vector<TestDomain>& domains) {
     Sites<2> sites = sites_at_nodes<2>(cloud.nodes);
     const bool reads_nodes =
         !method.promises().interpolates || problem.measured_derivatives().size() > 0;
     if (!reads_nodes) std::fill(sites.wanted.begin(), sites.wanted.end(), 0);
     std::vector<Point<2>> gauss;
-    for_each_domain(problem, cloud, [&](int node, const TestDomain& domain) {
+    for (int node = 0; node < cloud.size(); ++node) {
+      const TestDomain& domain = domains[node];
       for (const AreaPoint& area : domain.rule.area) gauss.push_back(area.x);
       for (const EdgePoint& edge : domain.rule.edge) {
         if (has_unknown_flux(problem, domain, edge)) gauss.push_back(edge.x);
@@ -111,17 +106,19 @@ class Mlpg {
       const Zone zone = cloud.is_boundary(node) ? Zone::boundary : Zone::interior;
       sites.anchor_zone[node] = zone;
       sites.anchor_zone.resize(cloud.size() + gauss.size(), zone);
-    });
+    }
     add_anchors(sites, gauss);
     return sites;
   }
 
-  EquationList equations(const FluxProblem<2>& problem, const PointCloud<2>& cloud,
-                         const Derivatives<2>& derivatives) const {
+  static EquationList equations(const FluxProblem<2>& problem, const PointCloud<2>& cloud,
+                                const Derivatives<2>& derivatives,
+                                const std::vector<TestDomain>& domains) {
     EquationList list;
     EquationWriter<2> write(list, derivatives);
     int first_point = cloud.size();
-    for_each_domain(problem, cloud, [&](int node, const TestDomain& domain) {
+    for (int node = 0; node < cloud.size(); ++node) {
+      const TestDomain& domain = domains[node];
       for (std::size_t field = 0; field < domain.fields.size(); ++field) {
         const int f = static_cast<int>(field);
         if (domain.fields[field] != 0) {
@@ -134,7 +131,7 @@ class Mlpg {
       for (const EdgePoint& edge : domain.rule.edge) {
         if (has_unknown_flux(problem, domain, edge)) ++first_point;
       }
-    });
+    }
     return list;
   }
 
@@ -162,8 +159,9 @@ class Mlpg {
     write.at(node);
     write.add(field, {0, 0}, 1);
     for (const BoundaryMark<2>& mark : cloud.marks_of(node)) {
-      const SideCondition condition = problem.condition(field, mark.side, x);
-      if (condition.kind == Kind::value) return write.equals(condition.given);
+      if (gives_value(problem, field, mark.side)) {
+        return write.equals(problem.given(field, mark.side, x));
+      }
     }
   }
 
@@ -175,17 +173,16 @@ class Mlpg {
     double right_hand_side = 0;
     for (const AreaPoint& area : domain.rule.area) {
       write.at(point++);
-      problem.flux(field, area.weight * v.gradient(area.x), write);
-      right_hand_side -= area.weight * v.value(area.x) * problem.source(field, area.x);
+      problem.flux(field, {area.x}, area.weight * v.gradient(area.x), write);
+      right_hand_side -= area.weight * v.value(area.x) * problem.source(field, {area.x});
     }
     for (const EdgePoint& edge : domain.rule.edge) {
       const double share = edge.weight * v.value(edge.x);
-      const SideCondition condition = problem.condition(field, edge.side, edge.x);
-      if (condition.kind == Kind::flux) {
-        right_hand_side += share * condition.given;
+      if (!gives_value(problem, field, edge.side)) {
+        right_hand_side += share * problem.given(field, edge.side, edge.x);
       } else {
         write.at(point);
-        problem.flux(field, -share * problem.domain().normal(edge.side, edge.x), write);
+        problem.flux(field, {edge.x}, -share * problem.domain().normal(edge.side, edge.x), write);
       }
       if (has_unknown_flux(problem, domain, edge)) ++point;
     }
@@ -215,26 +212,23 @@ class MlpgForm final : public Form<Dim> {
     }
   }
 
-  Derivatives<Dim> derivatives(const SteadyProblem<Dim>&, const PointCloud<Dim>&,
-                               const Method<Dim>& method) const override {
-    return Derivatives<Dim>::between_orders(method.promises().interpolates ? 1 : 0, 1);
-  }
-
-  Sites<Dim> sites(const SteadyProblem<Dim>& problem, const PointCloud<Dim>& cloud,
-                   const Method<Dim>& method) const override {
-    if constexpr (Dim == 2) {
-      return form_.sites(*flux_problem(problem), cloud, method);
-    } else {
+  Plan<Dim> plan(const SteadyProblem<Dim>& problem, const PointCloud<Dim>& cloud,
+                 const Method<Dim>& method) const override {
+    if constexpr (Dim != 2) {
       throw SkipCase(unsupported(problem, method));
-    }
-  }
-
-  EquationList equations(const SteadyProblem<Dim>& problem, const PointCloud<Dim>& cloud,
-                         const Derivatives<Dim>& derivatives) const override {
-    if constexpr (Dim == 2) {
-      return form_.equations(*flux_problem(problem), cloud, derivatives);
     } else {
-      throw SkipCase("mlpg is offered in 2D only");
+      const FluxProblem<2>& balance = *flux_problem(problem);
+      std::vector<TestDomain> domains = form_.domains(balance, cloud);
+      Plan<2> plan;
+      plan.derivatives = balance.flux_derivatives();
+      if (!method.promises().interpolates) plan.derivatives.merge({MultiIndex<2>{}});
+      plan.sites = Mlpg::sites(balance, cloud, method, domains);
+      plan.unknowns.count = cloud.size();
+      plan.equations = [&balance, &cloud,
+                        domains = std::move(domains)](const Derivatives<2>& derivatives) {
+        return Mlpg::equations(balance, cloud, derivatives, domains);
+      };
+      return plan;
     }
   }
 

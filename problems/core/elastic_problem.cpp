@@ -1,0 +1,250 @@
+#include "problems/core/elastic_problem.hpp"
+
+#include <array>
+#include <optional>
+
+#include <Eigen/QR>
+#include <fmt/format.h>
+
+#include "methods/core/error.hpp"
+
+namespace strongpoint {
+namespace {
+
+/// Unit vectors that span what is left of the free axes beside the normals given.
+template <int Dim>
+std::vector<Point<Dim>> directions_beside(const std::vector<int>& free_axes,
+                                          std::span<const BoundaryMark<Dim>> faces) {
+  const auto axes = static_cast<Eigen::Index>(free_axes.size());
+  Eigen::MatrixXd normals(axes, static_cast<Eigen::Index>(faces.size()));
+  for (Eigen::Index a = 0; a < axes; ++a) {
+    for (Eigen::Index f = 0; f < normals.cols(); ++f) {
+      normals(a, f) = faces[f].normal[free_axes[a]];
+    }
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(normals);
+  const Eigen::MatrixXd basis = qr.householderQ();
+  std::vector<Point<Dim>> directions;
+  for (Eigen::Index k = normals.cols(); k < axes; ++k) {
+    Point<Dim> direction = Point<Dim>::Zero();
+    for (Eigen::Index a = 0; a < axes; ++a) direction[free_axes[a]] = basis(a, k);
+    directions.push_back(direction);
+  }
+  return directions;
+}
+
+/// The part of a normal along the free axes, of unit length.
+template <int Dim>
+Point<Dim> within(const std::vector<int>& free_axes, const Point<Dim>& normal) {
+  Point<Dim> part = Point<Dim>::Zero();
+  for (int axis : free_axes) part[axis] = normal[axis];
+  const double length = part.norm();
+  return length > 0 ? Point<Dim>(part / length) : part;
+}
+
+}  // namespace
+
+OptionDoc unknowns_option() {
+  return {"unknowns", "displacement", "displacement | mixed: with a pressure, for nu close to 0.5"};
+}
+
+Unknowns chosen_unknowns(const Options& options) {
+  return options.choice<Unknowns>(
+      "unknowns", {{"displacement", Unknowns::displacement}, {"mixed", Unknowns::mixed}});
+}
+
+template <int Dim>
+std::vector<std::string> ElasticProblem<Dim>::fields() const {
+  static constexpr const char* names[] = {"u", "v", "w"};
+  std::vector<std::string> all(names, names + Dim);
+  if (is_mixed()) all.emplace_back("p");
+  return all;
+}
+
+template <int Dim>
+Derivatives<Dim> ElasticProblem<Dim>::derivatives(std::span<const BoundaryMark<Dim>> marks) const {
+  const bool is_inside = marks.empty();
+  if (is_inside && !varies() && !is_mixed()) return Derivatives<Dim>::between_orders(2, 2);
+  if (is_inside) return Derivatives<Dim>::between_orders(1, 2);
+  if (!is_mixed()) {
+    for (const BoundaryMark<Dim>& mark : marks) {
+      bool all_given = true;
+      for (int i = 0; i < Dim; ++i) {
+        all_given = all_given && known(i, mark.side) == Known::value;
+      }
+      if (all_given) return {};
+    }
+  }
+  return first_derivatives();
+}
+
+template <int Dim>
+void ElasticProblem<Dim>::governing(const Place<Dim>& place, EquationWriter<Dim>& write) const {
+  const Lame lame = material(place);
+  const Point<Dim> force = body_force(place);
+  const LameGradient<Dim> gradient = varies() ? material_gradient(place) : LameGradient<Dim>{};
+  for (int i = 0; i < Dim; ++i) {
+    if (is_mixed()) {
+      add_equilibrium<Dim>(write, Lame{0, lame.mu}, i);
+      write.add(Dim, partial<Dim>(i), -1);
+    } else {
+      add_equilibrium<Dim>(write, lame, i);
+    }
+    if (varies()) add_gradient_terms<Dim>(write, gradient, is_mixed() ? 0.0 : 1.0, i);
+    write.equals(-force[i]);
+  }
+  if (is_mixed()) write_constraint(place, write);
+}
+
+template <int Dim>
+void ElasticProblem<Dim>::write_constraint(const Place<Dim>& place,
+                                           EquationWriter<Dim>& write) const {
+  for (int i = 0; i < Dim; ++i) write.add(i, partial<Dim>(i), 1);
+  write.add(Dim, MultiIndex<Dim>{}, 1 / material(place).lambda);
+  write.equals(0);
+}
+
+template <int Dim>
+void ElasticProblem<Dim>::boundary(const Node<Dim>& node, EquationWriter<Dim>& write) const {
+  write_conditions(node, write);
+  if (is_mixed()) write_constraint(node.place(), write);
+}
+
+/// With a pressure: the derivative of div u + p / lambda along the outward normal.
+template <int Dim>
+void ElasticProblem<Dim>::ghost(const Node<Dim>& node, EquationWriter<Dim>& write) const {
+  write_conditions(node, write);
+  if (!is_mixed()) return;
+  Point<Dim> normal = Point<Dim>::Zero();
+  for (const BoundaryMark<Dim>& mark : loaded_faces(node)) normal += mark.normal;
+  normal.normalize();
+  for (int j = 0; j < Dim; ++j) {
+    for (int i = 0; i < Dim; ++i) write.add(i, partial<Dim>(i, j), normal[j]);
+    write.add(Dim, partial<Dim>(j), normal[j] / material(node.place()).lambda);
+  }
+  write.equals(0);
+}
+
+template <int Dim>
+void ElasticProblem<Dim>::add_traction_along(const Place<Dim>& place, const Point<Dim>& m,
+                                             const Point<Dim>& n,
+                                             EquationWriter<Dim>& write) const {
+  const Lame lame = material(place);
+  add_traction<Dim>(write, is_mixed() ? Lame{0, lame.mu} : lame, m, n);
+  if (is_mixed()) write.add(Dim, MultiIndex<Dim>{}, -m.dot(n));
+}
+
+template <int Dim>
+void ElasticProblem<Dim>::write_traction(const Node<Dim>& node,
+                                         std::span<const BoundaryMark<Dim>> faces,
+                                         const Point<Dim>& m, EquationWriter<Dim>& write) const {
+  double sum = 0;
+  for (const BoundaryMark<Dim>& face : faces) {
+    add_traction_along(node.place(), m, face.normal, write);
+    for (int i = 0; i < Dim; ++i) {
+      if (m[i] != 0) sum += m[i] * this->given(i, face.side, node.x);
+    }
+  }
+  write.equals(sum);
+}
+
+template <int Dim>
+std::vector<BoundaryMark<Dim>> ElasticProblem<Dim>::loaded_faces(const Node<Dim>& node) const {
+  std::vector<BoundaryMark<Dim>> faces, supports;
+  for (const BoundaryMark<Dim>& mark : node.marks) {
+    int values = 0;
+    for (int i = 0; i < Dim; ++i) values += known(i, mark.side) == Known::value ? 1 : 0;
+    if (values == 0) {
+      if (owns_corners(mark.side)) return {mark};
+      faces.push_back(mark);
+    } else if (values < Dim) {
+      supports.push_back(mark);
+    }
+  }
+  return faces.empty() ? supports : faces;
+}
+
+template <int Dim>
+void ElasticProblem<Dim>::write_conditions(const Node<Dim>& node,
+                                           EquationWriter<Dim>& write) const {
+  std::array<std::optional<double>, Dim> values;
+  std::vector<int> free_axes;
+  for (int i = 0; i < Dim; ++i) {
+    for (const BoundaryMark<Dim>& mark : node.marks) {
+      if (!values[i] && known(i, mark.side) == Known::value) {
+        values[i] = this->given(i, mark.side, node.x);
+      }
+    }
+    if (!values[i]) free_axes.push_back(i);
+  }
+  const std::vector<BoundaryMark<Dim>> faces = loaded_faces(node);
+  const bool by_face = faces.size() > 1 && faces.size() <= free_axes.size();
+  const std::vector<Point<Dim>> along =
+      by_face ? directions_beside<Dim>(free_axes, faces) : std::vector<Point<Dim>>{};
+  std::size_t row = 0;  // among those of the free components
+  for (int i = 0; i < Dim; ++i) {
+    if (values[i]) {
+      write.add(i, MultiIndex<Dim>{}, 1);
+      write.equals(*values[i]);
+      continue;
+    }
+    if (!by_face) {
+      write_traction(node, faces, Point<Dim>::Unit(i), write);
+    } else if (row < faces.size()) {
+      write_traction(node, std::span(faces).subspan(row, 1),
+                     within<Dim>(free_axes, faces[row].normal), write);
+    } else {
+      write_traction(node, faces, along[row - faces.size()], write);
+    }
+    ++row;
+  }
+}
+
+template <int Dim>
+Eigen::MatrixXd ElasticProblem<Dim>::nodal_stresses(const Solution<Dim>& solution) const {
+  const int count = solution.cloud.size();
+  std::array<Eigen::VectorXd, Dim * Dim> slopes;
+  for (int i = 0; i < Dim; ++i) {
+    for (int j = 0; j < Dim; ++j) slopes[i * Dim + j] = solution.derivative(i, partial<Dim>(j));
+  }
+  Eigen::MatrixXd result(Dim * (Dim + 1) / 2, count);
+  for (int n = 0; n < count; ++n) {
+    Eigen::Matrix<double, Dim, Dim> gradient;
+    for (int i = 0; i < Dim; ++i) {
+      for (int j = 0; j < Dim; ++j) gradient(i, j) = slopes[i * Dim + j][n];
+    }
+    const Lame lame = material({solution.cloud.nodes.col(n), solution.cloud.patch_of(n)});
+    Eigen::Matrix<double, Dim, Dim> sigma =
+        stress<Dim>(is_mixed() ? Lame{0, lame.mu} : lame, gradient);
+    if (is_mixed()) sigma.diagonal().array() -= solution.fields(Dim, n);
+    result.col(n) = tensor_components<Dim>(sigma);
+  }
+  return result;
+}
+
+template <int Dim>
+std::vector<std::string> stress_names() {
+  if constexpr (Dim == 2) return {"xx", "yy", "xy"};
+  return {"xx", "yy", "zz", "xy", "xz", "yz"};
+}
+
+template <int Dim>
+Eigen::Matrix<double, Dim*(Dim + 1) / 2, 1> tensor_components(
+    const Eigen::Matrix<double, Dim, Dim>& tensor) {
+  Eigen::Matrix<double, Dim*(Dim + 1) / 2, 1> all;
+  all.template head<Dim>() = tensor.diagonal();
+  int next = Dim;
+  for (int i = 0; i < Dim; ++i) {
+    for (int j = i + 1; j < Dim; ++j) all[next++] = tensor(i, j);
+  }
+  return all;
+}
+
+template class ElasticProblem<2>;
+template class ElasticProblem<3>;
+template std::vector<std::string> stress_names<2>();
+template std::vector<std::string> stress_names<3>();
+template Eigen::Matrix<double, 3, 1> tensor_components<2>(const Eigen::Matrix2d&);
+template Eigen::Matrix<double, 6, 1> tensor_components<3>(const Eigen::Matrix3d&);
+
+}  // namespace strongpoint
