@@ -37,10 +37,11 @@ Clip classify(const std::vector<Point<Dim>>& vertices, const Point<Dim>& normal,
 
 void ConvexCell<1>::reset(const Point<1>& low, const Point<1>& high) {
   ends_.assign({low, high});
+  labels_ = {unlabelled, unlabelled};
   tolerance_ = relative_tolerance * (high[0] - low[0]);
 }
 
-Clip ConvexCell<1>::clip(const Point<1>& normal, double offset) {
+Clip ConvexCell<1>::clip(const Point<1>& normal, double offset, int label) {
   if (ends_.empty()) return Clip::emptied;
   const double low = normal[0] * ends_[0][0] - offset;
   const double high = normal[0] * ends_[1][0] - offset;
@@ -49,7 +50,9 @@ Clip ConvexCell<1>::clip(const Point<1>& normal, double offset) {
     ends_.clear();
     return Clip::emptied;
   }
-  ends_[low > high ? 0 : 1][0] = offset / normal[0];
+  const std::size_t end = low > high ? 0 : 1;
+  ends_[end][0] = offset / normal[0];
+  labels_[end] = label;
   return Clip::cut;
 }
 
@@ -57,28 +60,40 @@ double ConvexCell<1>::measure() const { return ends_.empty() ? 0 : ends_[1][0] -
 
 void ConvexCell<2>::reset(const Point<2>& low, const Point<2>& high) {
   corners_.assign({low, {high[0], low[1]}, high, {low[0], high[1]}});
+  labels_.assign(4, unlabelled);
   tolerance_ = relative_tolerance * (high - low).maxCoeff();
 }
 
-Clip ConvexCell<2>::clip(const Point<2>& normal, double offset) {
+void ConvexCell<2>::keep(const Point<2>& corner, int label) {
+  next_corners_.push_back(corner);
+  next_labels_.push_back(label);
+}
+
+Clip ConvexCell<2>::clip(const Point<2>& normal, double offset, int label) {
   const Clip outcome = classify<2>(corners_, normal, offset, tolerance_, height_);
-  if (outcome == Clip::emptied) corners_.clear();
+  if (outcome == Clip::emptied) {
+    corners_.clear();
+    labels_.clear();
+  }
   if (outcome != Clip::cut) return outcome;
   next_corners_.clear();
+  next_labels_.clear();
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     const std::size_t j = i + 1 == corners_.size() ? 0 : i + 1;
     const bool inside_i = height_[i] <= tolerance_;
     const bool inside_j = height_[j] <= tolerance_;
-    if (inside_i) next_corners_.push_back(corners_[i]);
     // An edge whose inner end lies on the plane already ends there.
-    if (inside_i && !inside_j && height_[i] < -tolerance_) {
-      next_corners_.push_back(crossing<2>(corners_[i], height_[i], corners_[j], height_[j]));
+    const bool leaves_at_i = inside_i && !inside_j && height_[i] >= -tolerance_;
+    if (inside_i) keep(corners_[i], leaves_at_i ? label : labels_[i]);
+    if (inside_i && !inside_j && !leaves_at_i) {
+      keep(crossing<2>(corners_[i], height_[i], corners_[j], height_[j]), label);
     }
     if (!inside_i && inside_j && height_[j] < -tolerance_) {
-      next_corners_.push_back(crossing<2>(corners_[j], height_[j], corners_[i], height_[i]));
+      keep(crossing<2>(corners_[j], height_[j], corners_[i], height_[i]), labels_[i]);
     }
   }
   corners_.swap(next_corners_);
+  labels_.swap(next_labels_);
   return Clip::cut;
 }
 
@@ -95,6 +110,7 @@ double ConvexCell<2>::measure() const {
 void ConvexCell<3>::Faces::clear() {
   start.assign(1, 0);
   loop.clear();
+  label.clear();
 }
 
 void ConvexCell<3>::Faces::append(int vertex) {
@@ -102,13 +118,14 @@ void ConvexCell<3>::Faces::append(int vertex) {
   loop.push_back(vertex);
 }
 
-void ConvexCell<3>::Faces::close() {
+void ConvexCell<3>::Faces::close(int its_label) {
   const auto first = static_cast<std::size_t>(start.back());
   if (loop.size() > first + 1 && loop.back() == loop[first]) loop.pop_back();
   if (loop.size() < first + 3) {
     loop.resize(first);
   } else {
     start.push_back(static_cast<int>(loop.size()));
+    label.push_back(its_label);
   }
 }
 
@@ -120,10 +137,11 @@ void ConvexCell<3>::reset(const Point<3>& low, const Point<3>& high) {
   }
   faces_.start.assign({0, 4, 8, 12, 16, 20, 24});
   faces_.loop.assign({0, 1, 3, 2, 4, 6, 7, 5, 0, 4, 5, 1, 2, 3, 7, 6, 0, 2, 6, 4, 1, 5, 7, 3});
+  faces_.label.assign(6, unlabelled);
   tolerance_ = relative_tolerance * (high - low).maxCoeff();
 }
 
-Clip ConvexCell<3>::clip(const Point<3>& normal, double offset) {
+Clip ConvexCell<3>::clip(const Point<3>& normal, double offset, int label) {
   const Clip outcome = classify<3>(vertices_, normal, offset, tolerance_, height_);
   if (outcome == Clip::emptied) {
     vertices_.clear();
@@ -133,7 +151,7 @@ Clip ConvexCell<3>::clip(const Point<3>& normal, double offset) {
   keep_vertices_inside();
   next_faces_.clear();
   for (int face = 0; face < faces_.size(); ++face) cut_face(face);
-  add_new_face(normal);
+  add_new_face(normal, label);
   vertices_.swap(next_vertices_);
   std::swap(faces_, next_faces_);
   return Clip::cut;
@@ -165,7 +183,7 @@ void ConvexCell<3>::cut_face(int face) {
     if (inside_a) next_faces_.append(renumbered_[a]);
     if (inside_a != inside_b) next_faces_.append(inside_a ? cut_vertex(a, b) : cut_vertex(b, a));
   }
-  next_faces_.close();
+  next_faces_.close(faces_.label[face]);
 }
 
 int ConvexCell<3>::cut_vertex(int inside, int outside) {
@@ -190,7 +208,7 @@ void ConvexCell<3>::add_to_rim(int vertex) {
   if (std::find(rim_.begin(), rim_.end(), vertex) == rim_.end()) rim_.push_back(vertex);
 }
 
-void ConvexCell<3>::add_new_face(const Point<3>& normal) {
+void ConvexCell<3>::add_new_face(const Point<3>& normal, int label) {
   // The rim is sorted by angle instead of being chained along the cut faces: round-off can break
   // the chain where faces are almost parallel to the plane, but never the order by more than
   // round-off.
@@ -207,7 +225,7 @@ void ConvexCell<3>::add_new_face(const Point<3>& normal) {
   }
   std::sort(rim_angles_.begin(), rim_angles_.end());
   for (const auto& [angle, v] : rim_angles_) next_faces_.append(v);
-  next_faces_.close();
+  next_faces_.close(label);
 }
 
 double ConvexCell<3>::measure() const {

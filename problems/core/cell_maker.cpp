@@ -1,0 +1,160 @@
+#include "problems/core/cell_maker.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace strongpoint {
+namespace {
+
+/// Clips by tangent planes before a convex curved side counts as followed; each round divides the
+/// overshoot of a corner by four.
+constexpr int domain_rounds = 24;
+
+/// Overshoot of a vertex beyond the boundary, relative to the cell's radius, that is round-off.
+constexpr double overshoot_tolerance = 1e-12;
+
+/// Cosine above which a numerical normal is that of a side: finite differences are this good, and a
+/// normal that a corner of the domain tilts is not.
+constexpr double same_normal = 1 - 1e-7;
+
+/// A supporting plane of the domain.
+template <int Dim>
+struct TangentPlane {
+  Point<Dim> foot;
+  BoundaryMark<Dim> side;  ///< the side it touches, with the plane's normal
+};
+
+/// Gradient of the distance by central differences.
+template <int Dim>
+Point<Dim> distance_gradient(const Domain<Dim>& domain, const Point<Dim>& x, double step) {
+  Point<Dim> gradient;
+  for (int c = 0; c < Dim; ++c) {
+    Point<Dim> ahead = x;
+    Point<Dim> behind = x;
+    ahead[c] += step;
+    behind[c] -= step;
+    gradient[c] = (domain.distance(ahead) - domain.distance(behind)) / (ahead[c] - behind[c]);
+  }
+  return gradient;
+}
+
+/// The side whose normal at x is nearest to `numerical`, with its exact normal where that is almost
+/// the same and `numerical` itself where no side fits.
+template <int Dim>
+BoundaryMark<Dim> fitting_side(const Domain<Dim>& domain, const Point<Dim>& x,
+                               const Point<Dim>& numerical) {
+  BoundaryMark<Dim> best{0, numerical};
+  double best_cosine = -2;
+  for (int side = 0; side < static_cast<int>(domain.sides().size()); ++side) {
+    const Point<Dim> normal = domain.normal(side, x);
+    const double cosine = normal.dot(numerical);
+    if (!(cosine > best_cosine)) continue;
+    best_cosine = cosine;
+    best = {side, cosine > same_normal ? normal : numerical};
+  }
+  return best;
+}
+
+/// The plane that touches the domain nearest to a position outside it. Lengths are small or large
+/// relative to `scale`. A normal of zeros means that there is none.
+template <int Dim>
+TangentPlane<Dim> tangent_plane(const Domain<Dim>& domain, const Point<Dim>& x, double scale) {
+  TangentPlane<Dim> plane{x, {0, Point<Dim>::Zero()}};
+  double distance = domain.distance(x);
+  for (int step = 0; step == 0 || (step < 30 && distance > 1e-7 * scale); ++step) {
+    const double width = std::clamp(0.1 * distance, 1e-6 * scale, 1e-2 * scale);
+    const Point<Dim> gradient = distance_gradient(domain, plane.foot, width);
+    const double slope = gradient.norm();
+    if (!(slope > 0.1)) return {x, {0, Point<Dim>::Zero()}};
+    plane.side = fitting_side<Dim>(domain, plane.foot, gradient / slope);
+    const Point<Dim> foot = plane.foot - distance / slope * plane.side.normal;
+    const double left = domain.distance(foot);
+    if (std::abs(left) <= overshoot_tolerance * scale) return {foot, plane.side};
+    // Off a corner the gradient turns as one comes near: stay outside and look again from there, so
+    // that the plane ends in the corner and does not cut it off.
+    plane.foot -= 0.9 * distance / slope * plane.side.normal;
+    distance = domain.distance(plane.foot);
+  }
+  plane.foot -= distance * plane.side.normal;
+  return plane;
+}
+
+}  // namespace
+
+template <int Dim>
+CellState CellMaker<Dim>::make(int node, std::span<const int> neighbours) {
+  const double reach = reach_of(cloud_, node, neighbours);
+  if (static_cast<int>(neighbours.size()) < cloud_.size()) {
+    clip(node, neighbours, box_for(reach));
+    return 4 * farthest_squared(cell_) <= reach * reach ? CellState::settled : CellState::open;
+  }
+  // With all nodes known the domain alone bounds the cell, and the box must hold it.
+  for (double half = 2 * reach; std::isfinite(half * half); half *= 4) {
+    clip(node, neighbours, half);
+    if (farthest_squared(cell_) < half * half) return CellState::settled;
+    if (!(half > 0)) break;
+  }
+  return CellState::unbounded;
+}
+
+template <int Dim>
+void CellMaker<Dim>::make_unclipped(int node, std::span<const int> neighbours, double half_width) {
+  const Point<Dim> half = Point<Dim>::Constant(half_width);
+  cell_.reset(-half, half);
+  clip_by_neighbours(node, neighbours);
+}
+
+template <int Dim>
+void CellMaker<Dim>::clip(int node, std::span<const int> neighbours, double half_width) {
+  const Point<Dim> half = Point<Dim>::Constant(half_width);
+  cell_.reset(-half, half);
+  for (const BoundaryMark<Dim>& mark : cloud_.marks_of(node)) {
+    cell_.clip(mark.normal, 0, side_label(mark.side));
+  }
+  clip_by_neighbours(node, neighbours);
+  clip_by_domain(cloud_.nodes.col(node));
+}
+
+template <int Dim>
+void CellMaker<Dim>::clip_by_neighbours(int node, std::span<const int> neighbours) {
+  double security = 4 * farthest_squared(cell_);
+  for (int neighbour : neighbours) {
+    if (neighbour == node) continue;
+    const Point<Dim> arm = cloud_.nodes.col(neighbour) - cloud_.nodes.col(node);
+    const double length = arm.norm();
+    if (length * length > security) return;
+    if (cell_.clip(arm / length, length / 2, neighbour) != Clip::untouched) {
+      security = 4 * farthest_squared(cell_);
+    }
+  }
+}
+
+template <int Dim>
+void CellMaker<Dim>::clip_by_domain(const Point<Dim>& centre) {
+  double scale = std::sqrt(farthest_squared(cell_));
+  if (-domain_.distance(centre) > scale) return;
+  for (int round = 0; round < domain_rounds; ++round) {
+    const double tolerance = overshoot_tolerance * scale;
+    double overshoot = tolerance;
+    Point<Dim> worst = Point<Dim>::Zero();
+    for (const Point<Dim>& v : cell_.vertices()) {
+      const double distance = domain_.distance(centre + v);
+      if (!(distance > overshoot)) continue;
+      overshoot = distance;
+      worst = v;
+    }
+    if (overshoot == tolerance) return;
+    const TangentPlane<Dim> plane = tangent_plane<Dim>(domain_, centre + worst, scale);
+    const Point<Dim>& normal = plane.side.normal;
+    const Clip outcome =
+        cell_.clip(normal, normal.dot(plane.foot - centre), side_label(plane.side.side));
+    if (outcome != Clip::cut) return;
+    scale = std::sqrt(farthest_squared(cell_));
+  }
+}
+
+template class CellMaker<1>;
+template class CellMaker<2>;
+template class CellMaker<3>;
+
+}  // namespace strongpoint

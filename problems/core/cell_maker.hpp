@@ -1,0 +1,61 @@
+#pragma once
+
+#include <span>
+
+#include "problems/core/convex_cell.hpp"
+#include "problems/core/domain.hpp"
+
+namespace strongpoint {
+
+/// What is known of a cell.
+enum class CellState {
+  settled,   ///< it is the node's cell
+  open,      ///< farther nodes might cut it
+  unbounded  ///< neither nodes nor domain bound it
+};
+
+/// Label of a face that a side of the domain made; faces between nodes carry the other node's
+/// number.
+inline constexpr int side_label(int side) { return -2 - side; }
+/// The side of a face's label, -1 when no side made it.
+inline constexpr int side_of_label(int label) { return label <= -2 ? -2 - label : -1; }
+
+/// Makes Voronoi cells one after the other in the same memory, cut by the bisectors of neighbours
+/// in order of distance until the security radius (no farther node can cut the cell).
+template <int Dim>
+class CellMaker {
+ public:
+  /// Both must outlive the maker.
+  CellMaker(const PointCloud<Dim>& cloud, const Domain<Dim>& domain)
+      : cloud_(cloud), domain_(domain) {}
+
+  /// Makes the cell of a node, clipped to the domain, from its nearest nodes: exactly by flat
+  /// sides, by tangent planes along curved ones. Neighbours are sorted by distance.
+  CellState make(int node, std::span<const int> neighbours);
+  /// Makes the cell without the domain, within a box around the node.
+  void make_unclipped(int node, std::span<const int> neighbours, double half_width);
+  /// The cell last made, relative to its node.
+  const ConvexCell<Dim>& cell() const { return cell_; }
+
+ private:
+  const PointCloud<Dim>& cloud_;
+  const Domain<Dim>& domain_;
+  ConvexCell<Dim> cell_;
+
+  void clip(int node, std::span<const int> neighbours, double half_width);
+  void clip_by_neighbours(int node, std::span<const int> neighbours);
+  void clip_by_domain(const Point<Dim>& centre);
+};
+
+/// Distance from a node to the last of its neighbours.
+template <int Dim>
+double reach_of(const PointCloud<Dim>& cloud, int node, std::span<const int> neighbours) {
+  return (cloud.nodes.col(neighbours.back()) - cloud.nodes.col(node)).norm();
+}
+
+/// Half width of the box in which to make a cell whose neighbours reach this far. Nodes beyond
+/// reach cannot cut what lies within half of it, and a cell that touches this box does not; so the
+/// box never shows in a cell that counts.
+inline double box_for(double reach) { return 0.5 * (1 + 1e-9) * reach; }
+
+}  // namespace strongpoint
