@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "problems/core/distance_gradient.hpp"
+
 namespace strongpoint {
 namespace {
 
@@ -23,20 +25,6 @@ struct TangentPlane {
   Point<Dim> foot;
   BoundaryMark<Dim> side;  ///< the side it touches, with the plane's normal
 };
-
-/// Gradient of the distance by central differences.
-template <int Dim>
-Point<Dim> distance_gradient(const Domain<Dim>& domain, const Point<Dim>& x, double step) {
-  Point<Dim> gradient;
-  for (int c = 0; c < Dim; ++c) {
-    Point<Dim> ahead = x;
-    Point<Dim> behind = x;
-    ahead[c] += step;
-    behind[c] -= step;
-    gradient[c] = (domain.distance(ahead) - domain.distance(behind)) / (ahead[c] - behind[c]);
-  }
-  return gradient;
-}
 
 /// The side whose normal at x is nearest to `numerical`, with its exact normal where that is almost
 /// the same and `numerical` itself where no side fits.

@@ -1,0 +1,185 @@
+#include "problems/core/cell_faces.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include "methods/core/error.hpp"
+#include "problems/core/cell_maker.hpp"
+#include "problems/core/cell_outline.hpp"
+#include "problems/core/cell_visits.hpp"
+#include "problems/core/polyhedron_faces.hpp"
+
+namespace strongpoint {
+namespace {
+
+/// Makes the faces of cells in 1D and 3D, cut by bisectors and by the domain.
+template <int Dim>
+class FaceMaker {
+ public:
+  FaceMaker(const PointCloud<Dim>& cloud, const Domain<Dim>& domain, int gauss)
+      : cloud_(cloud), domain_(domain), gauss_(gauss) {}
+
+  /// One per thread.
+  class Worker {
+   public:
+    explicit Worker(const FaceMaker& shared)
+        : cloud_(shared.cloud_), maker_(shared.cloud_, shared.domain_), rule_(shared.gauss_) {}
+
+    CellState add(int node, std::span<const int> neighbours, std::vector<FacePoint<Dim>>& points) {
+      const CellState state = maker_.make(node, neighbours);
+      if (state == CellState::settled) {
+        add_faces<Dim>(maker_.cell(), cloud_.nodes.col(node), rule_, points);
+      }
+      return state;
+    }
+
+   private:
+    const PointCloud<Dim>& cloud_;
+    CellMaker<Dim> maker_;
+    PolygonRule rule_;
+  };
+
+ private:
+  const PointCloud<Dim>& cloud_;
+  const Domain<Dim>& domain_;
+  int gauss_;
+};
+
+/// Makes the faces of cells in 2D: the polygon of bisectors, its outline inside the domain.
+template <>
+class FaceMaker<2> {
+ public:
+  FaceMaker(const PointCloud<2>& cloud, const Domain<2>& domain, int gauss)
+      : cloud_(cloud), domain_(domain), gauss_(gauss), corners_(boundary_corners(cloud, domain)) {}
+
+  class Worker {
+   public:
+    explicit Worker(const FaceMaker& shared)
+        : cloud_(shared.cloud_),
+          maker_(shared.cloud_, shared.domain_),
+          outline_(shared.cloud_, shared.domain_, shared.corners_, shared.gauss_) {}
+
+    CellState add(int node, std::span<const int> neighbours, std::vector<FacePoint<2>>& points) {
+      const double reach = reach_of(cloud_, node, neighbours);
+      if (static_cast<int>(neighbours.size()) < cloud_.size()) {
+        const double farthest = add_within(node, neighbours, box_for(reach), points);
+        return 2 * farthest <= reach ? CellState::settled : CellState::open;
+      }
+      // With all nodes known the domain alone bounds the cell, and the box must hold it.
+      for (double half = 2 * reach; std::isfinite(half * half) && half > 0; half *= 4) {
+        const std::size_t before = points.size();
+        if (add_within(node, neighbours, half, points) < half) return CellState::settled;
+        points.resize(before);
+      }
+      return CellState::unbounded;
+    }
+
+   private:
+    const PointCloud<2>& cloud_;
+    CellMaker<2> maker_;
+    CellOutline outline_;
+
+    double add_within(int node, std::span<const int> neighbours, double half,
+                      std::vector<FacePoint<2>>& points) {
+      maker_.make_unclipped(node, neighbours, half);
+      return outline_.add(node, maker_.cell(), points);
+    }
+  };
+
+ private:
+  const PointCloud<2>& cloud_;
+  const Domain<2>& domain_;
+  int gauss_;
+  std::vector<Point<2>> corners_;
+};
+
+/// The points of all cells as threads make them, by thread.
+template <int Dim>
+class PointStore {
+ public:
+  PointStore(int nodes, int threads) : places_(nodes), by_thread_(threads) {}
+
+  std::vector<FacePoint<Dim>>& of_thread(int thread) { return by_thread_[thread]; }
+  void note(int node, int thread, std::size_t first, std::size_t end) {
+    places_[node] = {thread, first, end};
+  }
+  /// Everything in the order of the nodes.
+  CellFaces<Dim> collect() const {
+    CellFaces<Dim> faces;
+    for (const Place& place : places_) {
+      faces.offsets.push_back(faces.offsets.back() +
+                              static_cast<std::int64_t>(place.end - place.first));
+    }
+    faces.points.resize(static_cast<std::size_t>(faces.offsets.back()));
+#pragma omp parallel for schedule(static)
+    for (int node = 0; node < static_cast<int>(places_.size()); ++node) {
+      const Place& place = places_[node];
+      const std::vector<FacePoint<Dim>>& source = by_thread_[place.thread];
+      std::copy(source.begin() + static_cast<std::ptrdiff_t>(place.first),
+                source.begin() + static_cast<std::ptrdiff_t>(place.end),
+                faces.points.begin() + faces.offsets[node]);
+    }
+    return faces;
+  }
+
+ private:
+  struct Place {
+    int thread = 0;
+    std::size_t first = 0, end = 0;
+  };
+  std::vector<Place> places_;
+  std::vector<std::vector<FacePoint<Dim>>> by_thread_;
+};
+
+/// Throws unless every cell has a positive measure.
+template <int Dim>
+void check_cells(const PointCloud<Dim>& cloud, const CellFaces<Dim>& faces) {
+  for (int i = 0; i < cloud.size(); ++i) {
+    const Point<Dim> centre = cloud.nodes.col(i);
+    const double measure = cell_measure<Dim>(centre, faces.of(i));
+    if (measure > 0 && std::isfinite(measure)) continue;
+    throw CaseError(
+        fmt::format("the faces of the Voronoi cell of node {} at {} enclose {:g}: move the node "
+                    "into the domain, or remove the nodes that coincide with it",
+                    i, format_point(centre), measure));
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+CellFaces<Dim> cell_faces(const PointCloud<Dim>& cloud, const Domain<Dim>& domain,
+                          const NeighbourSearch<Dim>& search, int gauss) {
+  if (gauss < 1 || gauss > 4) {
+    throw std::invalid_argument(fmt::format("cell_faces: {} points a face; give 1 to 4", gauss));
+  }
+  const FaceMaker<Dim> shared(cloud, domain, gauss);
+  PointStore<Dim> store(cloud.size(), omp_get_max_threads());
+  visit_cells(cloud, search, [&] {
+    const int thread = omp_get_thread_num();
+    return [&, thread, worker = typename FaceMaker<Dim>::Worker(shared)](
+               int node, std::span<const int> neighbours) mutable {
+      std::vector<FacePoint<Dim>>& points = store.of_thread(thread);
+      const std::size_t before = points.size();
+      const CellState state = worker.add(node, neighbours, points);
+      if (state != CellState::settled) points.resize(before);
+      store.note(node, thread, before, points.size());
+      return state != CellState::open;
+    };
+  });
+  CellFaces<Dim> faces = store.collect();
+  check_cells(cloud, faces);
+  return faces;
+}
+
+template CellFaces<1> cell_faces<1>(const PointCloud<1>&, const Domain<1>&,
+                                    const NeighbourSearch<1>&, int);
+template CellFaces<2> cell_faces<2>(const PointCloud<2>&, const Domain<2>&,
+                                    const NeighbourSearch<2>&, int);
+template CellFaces<3> cell_faces<3>(const PointCloud<3>&, const Domain<3>&,
+                                    const NeighbourSearch<3>&, int);
+
+}  // namespace strongpoint

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "problems/core/domain.hpp"
+
+namespace strongpoint {
+
+/// A straight line between two positions, with the domain's distance at its ends.
+template <int Dim>
+struct DistanceLine {
+  Point<Dim> from, to;
+  double distance_from, distance_to;
+};
+
+/// Finds where a line crosses the boundary of a domain: parameters in [0, 1], ascending, by
+/// round-off; the line changes sides at each of them (a distance of 0 counts as inside). Stretches
+/// that a distance with slopes of at most 1 cannot make cross are skipped; of others, pieces
+/// shorter than `resolution` are taken to cross once, or not at all unless the distance peaks in
+/// between. `crossings` is overwritten.
+template <int Dim>
+void find_crossings(const Domain<Dim>& domain, const DistanceLine<Dim>& line, double resolution,
+                    std::vector<double>& crossings);
+
+}  // namespace strongpoint
