@@ -69,18 +69,22 @@ void expect_closed_cells(const PointCloud<Dim>& cloud, const CellFaces<Dim>& fac
   }
 }
 
-/// Every face between two cells has the same points from both sides. Edges that only one of them
-/// sees, because more than Dim + 1 cells meet there, are as short as round-off.
+/// Every face between two cells has the same points from both sides, by the round-off of vertices
+/// where bisectors are almost parallel. Edges that only one cell sees, because more than Dim + 1
+/// cells meet there, are as short as that.
 template <int Dim>
 void expect_shared_faces(const PointCloud<Dim>& cloud, const CellFaces<Dim>& faces) {
   const double h = cloud.spacing();
+  const double vertex_round_off = 1e-10 * h;
+  const double area_round_off = 1e-10 * std::pow(h, Dim - 1);
   for (int i = 0; i < cloud.size(); ++i) {
     for (const FacePoint<Dim>& point : faces.of(i)) {
-      if (point.neighbour < 0 || point.area.norm() < sum_round_off * std::pow(h, Dim - 1)) continue;
+      if (point.neighbour < 0 || point.area.norm() < area_round_off) continue;
       bool is_shared = false;
       for (const FacePoint<Dim>& other : faces.of(point.neighbour)) {
-        is_shared = is_shared || (other.neighbour == i && (other.x - point.x).norm() < 1e-9 * h &&
-                                  (other.area + point.area).norm() < 1e-9 * point.area.norm());
+        is_shared =
+            is_shared || (other.neighbour == i && (other.x - point.x).norm() < vertex_round_off &&
+                          (other.area + point.area).norm() < area_round_off);
       }
       EXPECT_TRUE(is_shared) << "nodes " << i << " and " << point.neighbour << " at "
                              << format_point(point.x);

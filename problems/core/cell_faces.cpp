@@ -7,94 +7,11 @@
 #include <omp.h>
 
 #include "methods/core/error.hpp"
-#include "problems/core/cell_maker.hpp"
-#include "problems/core/cell_outline.hpp"
 #include "problems/core/cell_visits.hpp"
-#include "problems/core/polyhedron_faces.hpp"
+#include "problems/core/face_makers.hpp"
 
 namespace strongpoint {
 namespace {
-
-/// Makes the faces of cells in 1D and 3D, cut by bisectors and by the domain.
-template <int Dim>
-class FaceMaker {
- public:
-  FaceMaker(const PointCloud<Dim>& cloud, const Domain<Dim>& domain, int gauss)
-      : cloud_(cloud), domain_(domain), gauss_(gauss) {}
-
-  /// One per thread.
-  class Worker {
-   public:
-    explicit Worker(const FaceMaker& shared)
-        : cloud_(shared.cloud_), maker_(shared.cloud_, shared.domain_), rule_(shared.gauss_) {}
-
-    CellState add(int node, std::span<const int> neighbours, std::vector<FacePoint<Dim>>& points) {
-      const CellState state = maker_.make(node, neighbours);
-      if (state == CellState::settled) {
-        add_faces<Dim>(maker_.cell(), cloud_.nodes.col(node), rule_, points);
-      }
-      return state;
-    }
-
-   private:
-    const PointCloud<Dim>& cloud_;
-    CellMaker<Dim> maker_;
-    PolygonRule rule_;
-  };
-
- private:
-  const PointCloud<Dim>& cloud_;
-  const Domain<Dim>& domain_;
-  int gauss_;
-};
-
-/// Makes the faces of cells in 2D: the polygon of bisectors, its outline inside the domain.
-template <>
-class FaceMaker<2> {
- public:
-  FaceMaker(const PointCloud<2>& cloud, const Domain<2>& domain, int gauss)
-      : cloud_(cloud), domain_(domain), gauss_(gauss), corners_(boundary_corners(cloud, domain)) {}
-
-  class Worker {
-   public:
-    explicit Worker(const FaceMaker& shared)
-        : cloud_(shared.cloud_),
-          maker_(shared.cloud_, shared.domain_),
-          outline_(shared.cloud_, shared.domain_, shared.corners_, shared.gauss_) {}
-
-    CellState add(int node, std::span<const int> neighbours, std::vector<FacePoint<2>>& points) {
-      const double reach = reach_of(cloud_, node, neighbours);
-      if (static_cast<int>(neighbours.size()) < cloud_.size()) {
-        const double farthest = add_within(node, neighbours, box_for(reach), points);
-        return 2 * farthest <= reach ? CellState::settled : CellState::open;
-      }
-      // With all nodes known the domain alone bounds the cell, and the box must hold it.
-      for (double half = 2 * reach; std::isfinite(half * half) && half > 0; half *= 4) {
-        const std::size_t before = points.size();
-        if (add_within(node, neighbours, half, points) < half) return CellState::settled;
-        points.resize(before);
-      }
-      return CellState::unbounded;
-    }
-
-   private:
-    const PointCloud<2>& cloud_;
-    CellMaker<2> maker_;
-    CellOutline outline_;
-
-    double add_within(int node, std::span<const int> neighbours, double half,
-                      std::vector<FacePoint<2>>& points) {
-      maker_.make_unclipped(node, neighbours, half);
-      return outline_.add(node, maker_.cell(), points);
-    }
-  };
-
- private:
-  const PointCloud<2>& cloud_;
-  const Domain<2>& domain_;
-  int gauss_;
-  std::vector<Point<2>> corners_;
-};
 
 /// The points of all cells as threads make them, by thread.
 template <int Dim>
@@ -156,15 +73,15 @@ CellFaces<Dim> cell_faces(const PointCloud<Dim>& cloud, const Domain<Dim>& domai
   if (gauss < 1 || gauss > 4) {
     throw std::invalid_argument(fmt::format("cell_faces: {} points a face; give 1 to 4", gauss));
   }
-  const FaceMaker<Dim> shared(cloud, domain, gauss);
+  const FaceSetting<Dim> setting(cloud, domain, gauss);
   PointStore<Dim> store(cloud.size(), omp_get_max_threads());
   visit_cells(cloud, search, [&] {
     const int thread = omp_get_thread_num();
-    return [&, thread, worker = typename FaceMaker<Dim>::Worker(shared)](
-               int node, std::span<const int> neighbours) mutable {
+    return [&, thread, maker = FaceMaker<Dim>(setting)](int node,
+                                                        std::span<const int> neighbours) mutable {
       std::vector<FacePoint<Dim>>& points = store.of_thread(thread);
       const std::size_t before = points.size();
-      const CellState state = worker.add(node, neighbours, points);
+      const CellState state = add_settled(cloud, maker, node, neighbours, points);
       if (state != CellState::settled) points.resize(before);
       store.note(node, thread, before, points.size());
       return state != CellState::open;

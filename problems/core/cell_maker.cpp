@@ -96,11 +96,22 @@ template <int Dim>
 void CellMaker<Dim>::clip(int node, std::span<const int> neighbours, double half_width) {
   const Point<Dim> half = Point<Dim>::Constant(half_width);
   cell_.reset(-half, half);
+  clip_by_marks(node);  // first: a smaller cell has a smaller security radius
+  clip_by_neighbours(node, neighbours);
+  clip_by_domain(cloud_.nodes.col(node));
+}
+
+template <int Dim>
+void CellMaker<Dim>::clip_to_domain(int node) {
+  clip_by_marks(node);
+  clip_by_domain(cloud_.nodes.col(node));
+}
+
+template <int Dim>
+void CellMaker<Dim>::clip_by_marks(int node) {
   for (const BoundaryMark<Dim>& mark : cloud_.marks_of(node)) {
     cell_.clip(mark.normal, 0, side_label(mark.side));
   }
-  clip_by_neighbours(node, neighbours);
-  clip_by_domain(cloud_.nodes.col(node));
 }
 
 template <int Dim>

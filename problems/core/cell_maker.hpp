@@ -34,8 +34,12 @@ class CellMaker {
   CellState make(int node, std::span<const int> neighbours);
   /// Makes the cell without the domain, within a box around the node.
   void make_unclipped(int node, std::span<const int> neighbours, double half_width);
+  /// Clips the cell of a node last made by the domain, as `make` does.
+  void clip_to_domain(int node);
   /// The cell last made, relative to its node.
   const ConvexCell<Dim>& cell() const { return cell_; }
+  /// The same, for further cuts.
+  ConvexCell<Dim>& cell() { return cell_; }
 
  private:
   const PointCloud<Dim>& cloud_;
@@ -44,6 +48,7 @@ class CellMaker {
 
   void clip(int node, std::span<const int> neighbours, double half_width);
   void clip_by_neighbours(int node, std::span<const int> neighbours);
+  void clip_by_marks(int node);
   void clip_by_domain(const Point<Dim>& centre);
 };
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <tuple>
+#include <utility>
 
 #include "problems/core/distance_gradient.hpp"
 #include "problems/core/line_crossings.hpp"
@@ -112,10 +114,10 @@ double CellOutline::add(int node, const ConvexCell<2>& polygon, std::vector<Face
   if (crossings_.empty()) return farthest;
   const std::size_t first = points.size();
   pair_crossings();
-  put_corners_on_stretches();
+  put_corners_on_ways();
   add_boundary(points);
-  for (const Stretch& stretch : stretches_) {
-    for (const Point<2>& x : stretch.way) farthest = std::max(farthest, x.norm());
+  for (const std::vector<Point<2>>& way : ways()) {
+    for (const Point<2>& x : way) farthest = std::max(farthest, x.norm());
   }
   for (std::size_t i = first; i < points.size(); ++i) {
     farthest = std::max(farthest, (points[i].x - centre_).norm());
@@ -169,19 +171,22 @@ void CellOutline::pair_crossings() {
       if (crossings_[leaves].leaves && !crossings_[enters].leaves) add_candidate(leaves, enters);
     }
   }
-  std::stable_sort(candidates_.begin(), candidates_.end(),
-                   [](const Stretch& a, const Stretch& b) { return a.score > b.score; });
-  for (Stretch& candidate : candidates_) {
+  std::sort(candidates_.begin(), candidates_.end(), [](const Stretch& a, const Stretch& b) {
+    return std::tuple(-a.score, a.leaves, a.enters) < std::tuple(-b.score, b.leaves, b.enters);
+  });
+  for (const Stretch& candidate : candidates_) {
     if (!fits(candidate)) continue;
     crossings_[candidate.leaves].is_paired = true;
     crossings_[candidate.enters].is_paired = true;
-    candidate.way = {crossings_[candidate.leaves].x, crossings_[candidate.enters].x};
-    stretches_.push_back(std::move(candidate));
+    stretches_.push_back(candidate);
+    if (ways_.size() < stretches_.size()) ways_.emplace_back();
+    ways_[stretches_.size() - 1].assign(
+        {crossings_[candidate.leaves].x, crossings_[candidate.enters].x});
   }
 }
 
 void CellOutline::add_candidate(int leaves, int enters) {
-  Stretch candidate{leaves, enters, 0, {}};
+  Stretch candidate{leaves, enters, 0};
   const Point<2> chord = crossings_[enters].x - crossings_[leaves].x;
   const double length = chord.norm();
   if (length <= same_place * radius_) {
@@ -192,7 +197,7 @@ void CellOutline::add_candidate(int leaves, int enters) {
             .dot(chord) /
         length;
   }
-  candidates_.push_back(std::move(candidate));
+  candidates_.push_back(candidate);
 }
 
 /// Unit tangent of the boundary with the domain to its left.
@@ -215,25 +220,25 @@ bool CellOutline::fits(const Stretch& candidate) const {
   });
 }
 
-/// Puts the corners inside the polygon on the stretch that they lengthen least.
-void CellOutline::put_corners_on_stretches() {
+/// Puts the corners inside the polygon on the way that they lengthen least.
+void CellOutline::put_corners_on_ways() {
   for (const Point<2>& corner : corners_) {
     const Point<2> x = corner - centre_;
     if (!holds(x)) continue;
-    Stretch* best = nullptr;
+    std::vector<Point<2>>* best = nullptr;
     std::pair<std::size_t, double> best_place{0, std::numeric_limits<double>::infinity()};
     bool is_known = false;
-    for (Stretch& stretch : stretches_) {
-      for (const Point<2>& other : stretch.way) {
+    for (std::vector<Point<2>>& way : ways()) {
+      for (const Point<2>& other : way) {
         is_known = is_known || (other - x).norm() <= same_place * radius_;
       }
-      const auto place = cheapest_place(stretch.way, x);
+      const auto place = cheapest_place(way, x);
       if (place.second >= best_place.second) continue;
       best_place = place;
-      best = &stretch;
+      best = &way;
     }
     if (is_known || best == nullptr) continue;
-    best->way.insert(best->way.begin() + static_cast<std::ptrdiff_t>(best_place.first), x);
+    best->insert(best->begin() + static_cast<std::ptrdiff_t>(best_place.first), x);
   }
 }
 
@@ -253,10 +258,8 @@ bool CellOutline::holds(const Point<2>& corner) const {
 void CellOutline::add_boundary(std::vector<FacePoint<2>>& points) {
   arc_.set_centre(centre_);
   const std::size_t first = points.size();
-  for (const Stretch& stretch : stretches_) {
-    for (std::size_t i = 1; i < stretch.way.size(); ++i) {
-      arc_.trace(stretch.way[i - 1], stretch.way[i], points);
-    }
+  for (const std::vector<Point<2>>& way : ways()) {
+    for (std::size_t i = 1; i < way.size(); ++i) arc_.trace(way[i - 1], way[i], points);
   }
   for (std::size_t i = first; i < points.size(); ++i) {
     points[i].side = side_at(points[i].x, points[i].area.normalized());

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <span>
 #include <vector>
 
 #include "problems/core/boundary_arc.hpp"
@@ -35,11 +35,10 @@ class CellOutline {
     bool leaves;
     bool is_paired;
   };
-  /// A stretch of the boundary of the domain inside the polygon.
+  /// A stretch of the boundary of the domain inside the polygon, given by its crossings.
   struct Stretch {
-    int leaves, enters;  ///< crossings
-    double score;
-    std::vector<Point<2>> way;  ///< from one crossing through the corners to the other
+    int leaves, enters;
+    double score;  ///< how well its ends point at each other, -2 to 2
   };
 
   const PointCloud<2>& cloud_;
@@ -55,6 +54,7 @@ class CellOutline {
   std::vector<double> parameters_;
   std::vector<Crossing> crossings_;
   std::vector<Stretch> candidates_, stretches_;
+  std::vector<std::vector<Point<2>>> ways_;  ///< of each stretch, through the corners; kept to grow
 
   double distance(const Point<2>& x) const { return domain_.distance(centre_ + x); }
   void add_inner_faces(std::vector<FacePoint<2>>& points);
@@ -64,7 +64,8 @@ class CellOutline {
   void add_candidate(int leaves, int enters);
   Point<2> way_along_boundary(const Point<2>& x) const;
   bool fits(const Stretch& candidate) const;
-  void put_corners_on_stretches();
+  std::span<std::vector<Point<2>>> ways() { return {ways_.data(), stretches_.size()}; }
+  void put_corners_on_ways();
   bool holds(const Point<2>& corner) const;
   void add_boundary(std::vector<FacePoint<2>>& points);
   int side_at(const Point<2>& x, const Point<2>& normal) const;

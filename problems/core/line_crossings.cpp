@@ -1,12 +1,13 @@
 #include "problems/core/line_crossings.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace strongpoint {
 namespace {
 
-/// A place on the line and the distance there.
+/// A place on the line and its distance beyond what counts as inside.
 struct Place {
   double t, distance;
 
@@ -26,6 +27,8 @@ class CrossingFinder {
         line_(line),
         length_((line.to - line.from).norm()),
         resolution_(resolution),
+        round_off_(std::numeric_limits<double>::epsilon() *
+                   std::max(line.from.cwiseAbs().maxCoeff(), length_)),
         crossings_(crossings) {}
 
   void search(const Place& low, const Place& high) {
@@ -47,27 +50,29 @@ class CrossingFinder {
  private:
   const Domain<Dim>& domain_;
   const DistanceLine<Dim>& line_;
-  double length_, resolution_;
+  double length_, resolution_, round_off_;
   std::vector<double>& crossings_;
 
   Place at(double t) const {
-    return {t, domain_.distance(line_.from + t * (line_.to - line_.from))};
+    return {t, domain_.distance(line_.from + t * (line_.to - line_.from)) - line_.inside};
   }
 
   /// The root between two places on different sides: secants that stay in the bracket (the Illinois
-  /// rule), bisected when they are slow.
+  /// rule), and a bisection whenever two of them have not halved it.
   double root(Place low, Place high) const {
-    constexpr double tiny = std::numeric_limits<double>::epsilon();
-    constexpr int most_steps = 100;
+    constexpr int most_steps = 200;
     double weight_low = low.distance, weight_high = high.distance;
-    for (int step = 0; step < most_steps && high.t - low.t > tiny; ++step) {
+    int slow_steps = 0;
+    for (int step = 0; step < most_steps; ++step) {
+      const double width = high.t - low.t;
       double t = (low.t * weight_high - high.t * weight_low) / (weight_high - weight_low);
-      if (!(t > low.t && t < high.t)) t = step % 2 == 0 ? t : 0.5 * (low.t + high.t);
-      if (!(t > low.t)) t = std::nextafter(low.t, high.t);
-      if (!(t < high.t)) t = std::nextafter(high.t, low.t);
+      if (!(t > low.t && t < high.t) || slow_steps == 2) {
+        t = 0.5 * (low.t + high.t);
+        slow_steps = 0;
+      }
       if (!(t > low.t && t < high.t)) break;
       const Place next = at(t);
-      if (next.distance == 0) return t;
+      if (std::abs(next.distance) <= round_off_) return t;
       if (next.is_inside() == low.is_inside()) {
         low = next;
         weight_low = next.distance;
@@ -77,6 +82,7 @@ class CrossingFinder {
         weight_high = next.distance;
         weight_low *= 0.5;
       }
+      if (high.t - low.t > 0.5 * width) ++slow_steps;
     }
     return std::abs(low.distance) < std::abs(high.distance) ? low.t : high.t;
   }
@@ -119,7 +125,7 @@ void find_crossings(const Domain<Dim>& domain, const DistanceLine<Dim>& line, do
                     std::vector<double>& crossings) {
   crossings.clear();
   CrossingFinder<Dim>(domain, line, resolution, crossings)
-      .search({0, line.distance_from}, {1, line.distance_to});
+      .search({0, line.distance_from - line.inside}, {1, line.distance_to - line.inside});
 }
 
 template void find_crossings<2>(const Domain<2>&, const DistanceLine<2>&, double,

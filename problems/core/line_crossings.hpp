@@ -11,10 +11,11 @@ template <int Dim>
 struct DistanceLine {
   Point<Dim> from, to;
   double distance_from, distance_to;
+  double inside = 0;  ///< distances up to this one count as inside
 };
 
 /// Finds where a line crosses the boundary of a domain: parameters in [0, 1], ascending, by
-/// round-off; the line changes sides at each of them (a distance of 0 counts as inside). Stretches
+/// round-off; the line changes sides at each of them. Stretches
 /// that a distance with slopes of at most 1 cannot make cross are skipped; of others, pieces
 /// shorter than `resolution` are taken to cross once, or not at all unless the distance peaks in
 /// between. `crossings` is overwritten.

@@ -1,5 +1,6 @@
 #include "problems/core/polyhedron_faces.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -7,6 +8,20 @@
 #include "problems/core/cell_maker.hpp"
 
 namespace strongpoint {
+namespace {
+
+/// The corner that triangles share: the same one from both sides of a face. The direction is that
+/// of no lattice, so that corners do not tie.
+std::size_t first_corner(const std::vector<Point<3>>& corners) {
+  const Point<3> direction(0.5257311, 0.7071068, 0.4728709);
+  const auto behind = [&](const Point<3>& a, const Point<3>& b) {
+    return direction.dot(a) < direction.dot(b);
+  };
+  return static_cast<std::size_t>(std::min_element(corners.begin(), corners.end(), behind) -
+                                  corners.begin());
+}
+
+}  // namespace
 
 PolygonRule::PolygonRule(int gauss) {
   const auto add_orbit = [this](double one, double two, double weight) {
@@ -38,29 +53,39 @@ PolygonRule::PolygonRule(int gauss) {
 
 void PolygonRule::add(const std::vector<Point<3>>& corners,
                       std::vector<FacePoint<3>>& points) const {
+  const std::size_t count = corners.size();
+  const std::size_t first = first_corner(corners);
+  const auto arm = [&](std::size_t i) -> Point<3> {
+    const std::size_t at = first + i;
+    return corners[at < count ? at : at - count] - corners[first];
+  };
   Point<3> whole = Point<3>::Zero();
-  for (std::size_t i = 2; i < corners.size(); ++i) {
-    whole += 0.5 * (corners[i - 1] - corners[0]).cross(corners[i] - corners[0]);
-  }
+  for (std::size_t i = 2; i < count; ++i) whole += 0.5 * arm(i - 1).cross(arm(i));
   const double total = whole.norm();
   if (!(total > 0)) return;
   Point<3> moment = Point<3>::Zero();
-  for (std::size_t i = 2; i < corners.size(); ++i) {
-    const Point<3> a = corners[i - 1] - corners[0];
-    const Point<3> b = corners[i] - corners[0];
+  for (std::size_t i = 2; i < count; ++i) {
+    const Point<3> a = arm(i - 1);
+    const Point<3> b = arm(i);
     const Point<3> area = 0.5 * a.cross(b);
     moment += area.dot(whole) / total * (a + b) / 3;
     for (const Place& place : places_) {
       points.push_back(
-          {corners[0] + place.second * a + place.third * b, place.weight * area, -1, -1});
+          {corners[first] + place.second * a + place.third * b, place.weight * area, -1, -1});
     }
   }
-  if (places_.empty()) points.push_back({corners[0] + moment / total, whole, -1, -1});
+  if (places_.empty()) points.push_back({corners[first] + moment / total, whole, -1, -1});
 }
 
-template <>
-void add_faces<1>(const ConvexCell<1>& cell, const Point<1>& centre, const PolygonRule&,
-                  std::vector<FacePoint<1>>& points) {
+void set_label(int label, std::size_t first, std::vector<FacePoint<3>>& points) {
+  for (std::size_t i = first; i < points.size(); ++i) {
+    points[i].side = side_of_label(label);
+    points[i].neighbour = std::max(label, -1);
+  }
+}
+
+void add_ends(const ConvexCell<1>& cell, const Point<1>& centre,
+              std::vector<FacePoint<1>>& points) {
   for (int end = 0; end < static_cast<int>(cell.vertices().size()); ++end) {
     const int label = cell.label(end);
     points.push_back({centre + cell.vertices()[end], Point<1>(end == 0 ? -1 : 1),
@@ -68,21 +93,14 @@ void add_faces<1>(const ConvexCell<1>& cell, const Point<1>& centre, const Polyg
   }
 }
 
-template <>
-void add_faces<3>(const ConvexCell<3>& cell, const Point<3>& centre, const PolygonRule& rule,
-                  std::vector<FacePoint<3>>& points) {
-  static thread_local std::vector<Point<3>> corners;
+void add_faces(const ConvexCell<3>& cell, const Point<3>& centre, const PolygonRule& rule,
+               std::vector<Point<3>>& corners, std::vector<FacePoint<3>>& points) {
   for (int face = 0; face < cell.face_count(); ++face) {
     corners.clear();
-    for (int v : cell.face(face)) corners.emplace_back(cell.vertices()[v]);
+    for (int v : cell.face(face)) corners.emplace_back(centre + cell.vertices()[v]);
     const std::size_t first = points.size();
     rule.add(corners, points);
-    const int label = cell.label(face);
-    for (std::size_t i = first; i < points.size(); ++i) {
-      points[i].x += centre;
-      points[i].side = side_of_label(label);
-      points[i].neighbour = std::max(label, -1);
-    }
+    set_label(cell.label(face), first, points);
   }
 }
 

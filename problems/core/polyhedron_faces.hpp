@@ -7,7 +7,7 @@
 
 namespace strongpoint {
 
-/// A quadrature rule on polygons, cut into triangles about their first corner.
+/// A quadrature rule on polygons, cut into triangles about one of their corners.
 class PolygonRule {
  public:
   /// 1, 3, 6 or 16 points a triangle of degree 1, 2, 4 or 6, for gauss 1 to 4; a single point for
@@ -26,10 +26,15 @@ class PolygonRule {
   std::vector<Place> places_;
 };
 
-/// Appends the quadrature points on the faces of a cell, given relative to a centre and labelled as
-/// by `CellMaker`. In 1D the two ends.
-template <int Dim>
-void add_faces(const ConvexCell<Dim>& cell, const Point<Dim>& centre, const PolygonRule& rule,
-               std::vector<FacePoint<Dim>>& points);
+/// Appends the ends of an interval given relative to a centre and labelled as by `CellMaker`.
+void add_ends(const ConvexCell<1>& cell, const Point<1>& centre, std::vector<FacePoint<1>>& points);
+
+/// Appends the quadrature points on the faces of a polyhedron given and labelled likewise;
+/// `corners` is overwritten.
+void add_faces(const ConvexCell<3>& cell, const Point<3>& centre, const PolygonRule& rule,
+               std::vector<Point<3>>& corners, std::vector<FacePoint<3>>& points);
+
+/// Gives the points from `first` on the side or the neighbour that a face's label names.
+void set_label(int label, std::size_t first, std::vector<FacePoint<3>>& points);
 
 }  // namespace strongpoint
