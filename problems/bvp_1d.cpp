@@ -1,9 +1,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "problems/core/flux_problem.hpp"
 #include "problems/core/jet.hpp"
 #include "problems/core/norms.hpp"
-#include "problems/core/problem.hpp"
 
 namespace strongpoint {
 namespace {
@@ -27,7 +27,7 @@ struct Exact {
   }
 };
 
-class Bvp1d final : public SteadyProblem<1> {
+class Bvp1d final : public FluxProblem<1> {
  public:
   explicit Bvp1d(double alpha) : domain_(alpha) {}
 
@@ -42,6 +42,15 @@ class Bvp1d final : public SteadyProblem<1> {
   }
   void boundary(const Node<1>& node, EquationWriter<1>& write) const override {
     write_derivative(node.on(left) ? value : first, node.x, write);
+  }
+  void flux(int, const Place<1>&, const Point1& direction,
+            EquationWriter<1>& write) const override {
+    write.add(0, first, direction[0]);
+  }
+  double source(int, const Place<1>& place) const override { return exact_at(second, place.x); }
+  Known known(int, int side) const override { return side == left ? Known::value : Known::flux; }
+  double given(int, int side, const Point1& x) const override {
+    return exact_at(side == left ? value : first, x);
   }
   std::vector<std::string> quantities() const override { return {"u_error", "u_max_error"}; }
   std::vector<double> measure(const Solution<1>& solution) const override {
@@ -58,10 +67,13 @@ class Bvp1d final : public SteadyProblem<1> {
   static constexpr MultiIndex<1> value{0}, first{1}, second{2};
   PowerInterval domain_;
 
+  static double exact_at(const MultiIndex<1>& alpha, const Point1& x) {
+    return exact_derivatives<1>(Exact{}, x, {alpha})[0];
+  }
   static void write_derivative(const MultiIndex<1>& alpha, const Point1& x,
                                EquationWriter<1>& write) {
     write.add(0, alpha, 1);
-    write.equals(exact_derivatives<1>(Exact{}, x, {alpha})[0]);
+    write.equals(exact_at(alpha, x));
   }
 };
 

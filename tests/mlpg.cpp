@@ -7,9 +7,9 @@
 #include <omp.h>
 
 #include "problems/core/assembly.hpp"
-#include "problems/core/elastic_problem.hpp"
 #include "problems/core/manufactured_poisson.hpp"
 #include "studies/support/run_case.hpp"
+#include "tests/strain_problem.hpp"
 
 namespace strongpoint {
 namespace {
@@ -27,40 +27,6 @@ struct LinearField {
   template <class T>
   T operator()(const std::array<T, 2>& x) const {
     return 3.0 - 2.0 * x[0] + 0.5 * x[1];
-  }
-};
-
-/// Homogeneous strain, on any domain: displacements given on one side, or tractions on all others.
-class HomogeneousStrain final : public ElasticProblem<2> {
- public:
-  HomogeneousStrain(const Domain<2>& domain, std::vector<std::string> clamped)
-      : domain_(domain), clamped_(std::move(clamped)) {}
-
-  static Point2 displacement(const Point2& x) { return gradient() * x + Point2(0.1, 0.2); }
-
-  const Domain<2>& domain() const override { return domain_; }
-  Lame material(const Place<2>&) const override { return lame; }
-  Known known(int, int side) const override {
-    const std::string& name = domain_.sides()[side];
-    const bool is_clamped = std::find(clamped_.begin(), clamped_.end(), name) != clamped_.end();
-    return is_clamped ? Known::value : Known::flux;
-  }
-  double given(int field, int side, const Point2& x) const override {
-    if (known(field, side) == Known::value) return displacement(x)[field];
-    return (stress<2>(lame, gradient()) * domain_.normal(side, x))[field];
-  }
-  std::vector<std::string> quantities() const override { return {}; }
-  std::vector<double> measure(const Solution<2>&) const override { return {}; }
-
- private:
-  inline static const Lame lame = lame_constants(10, 0.3);
-  const Domain<2>& domain_;
-  std::vector<std::string> clamped_;
-
-  static Eigen::Matrix2d gradient() {
-    Eigen::Matrix2d result;
-    result << 0.3, -0.1, 0.4, 0.2;
-    return result;
   }
 };
 
@@ -114,11 +80,11 @@ TEST(Mlpg, PassesThePatchTestOfElasticityWithDisplacementsAndTractions) {
   for (const Case& c : {Case{square, all, "mlpg"}, Case{square, {"left"}, fine},
                         Case{plate_domain(), {"bottom"}, fine}}) {
     for (const char* cloud : {"grid", "perturbed[amount=0.3]", "scattered"}) {
-      const HomogeneousStrain problem(c.domain, c.clamped);
+      const HomogeneousStrain<2> problem(c.domain, c.clamped);
       PointCloud<2> nodes;
       const Eigen::MatrixXd parameters = solved(problem, c.form, "mls[h=1.3]", cloud, nodes);
       for (int i = 0; i < nodes.size(); ++i) {
-        const Point2 exact = HomogeneousStrain::displacement(nodes.nodes.col(i));
+        const Point2 exact = problem.displacement(nodes.nodes.col(i));
         EXPECT_LT((parameters.col(i) - exact).norm(), patch_tolerance) << cloud;
       }
     }

@@ -15,11 +15,6 @@ namespace {
 
 using Terms = std::span<const Term>;
 
-Terms terms_of(const EquationList& equations, int row) {
-  return {equations.terms.data() + equations.offsets[row],
-          equations.terms.data() + equations.offsets[row + 1]};
-}
-
 /// Buffers of one thread.
 struct Workspace {
   std::vector<std::pair<int, int>> order;  ///< (node, position in the stencil), sorted by node
@@ -86,6 +81,12 @@ void gather_entries(Terms terms, const Scene& scene, Workspace& work) {
     }
     const Weights& weights = scene.weights;
     const std::span<const int> nodes = weights.nodes(term.point);
+    if (nodes.empty()) {
+      throw CaseError(
+          fmt::format("a derivative is read at evaluation point {}, which has no weights; its "
+                      "stencil was not asked for",
+                      term.point));
+    }
     const double* values =
         weights.values.data() + weights.offsets[term.point] * weights.per_entry + term.derivative;
     for (std::size_t j = 0; j < nodes.size(); ++j) {
@@ -244,7 +245,7 @@ LinearSystem assemble(const EquationList& equations, const Weights& weights,
       Eigen::Map<const Eigen::VectorXd>(equations.right_hand_sides.data(), rows);
   std::vector<double> largest(rows);
   for_each_row(rows, columns, [&](int row, Workspace& work) {
-    system.offsets[row + 1] = count_entries(terms_of(equations, row), scene, work);
+    system.offsets[row + 1] = count_entries(equations.row(row), scene, work);
   });
   for (int row = 0; row < rows; ++row) system.offsets[row + 1] += system.offsets[row];
   system.columns.resize(system.offsets.back());
@@ -253,7 +254,7 @@ LinearSystem assemble(const EquationList& equations, const Weights& weights,
     const std::int64_t begin = system.offsets[row];
     const std::int64_t count = system.offsets[row + 1] - begin;
     if (count == 0) return;
-    fill_row(terms_of(equations, row), scene, work, system.columns.data() + begin,
+    fill_row(equations.row(row), scene, work, system.columns.data() + begin,
              system.values.data() + begin);
     largest[row] = scale_row(system.values.data() + begin, count, system.right_hand_side[row]);
   });

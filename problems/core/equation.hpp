@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "methods/core/derivatives.hpp"
@@ -27,6 +28,16 @@ struct EquationList {
   std::vector<double> row_weights;       ///< (rows) factors of rows after scaling, empty for ones
 
   int size() const { return static_cast<int>(right_hand_sides.size()); }
+  std::span<const Term> row(int i) const {
+    return {terms.data() + offsets[i], terms.data() + offsets[i + 1]};
+  }
+  /// Empties the list and keeps its memory.
+  void clear() {
+    offsets.resize(1);
+    terms.clear();
+    right_hand_sides.clear();
+    row_weights.clear();
+  }
 };
 
 /// Lets a problem state equations at one evaluation point.
@@ -46,6 +57,26 @@ class EquationWriter {
     const int slot = is_value ? value_only : derivatives_.index(alpha);
     list_.terms.push_back(
         {point_, static_cast<std::int16_t>(field), static_cast<std::int16_t>(slot), coefficient});
+  }
+  /// Adds a term on the unknown of a node of the sites, whatever its point's weights are.
+  void add_unknown(int node, int field, double coefficient) {
+    list_.terms.push_back({node, static_cast<std::int16_t>(field), value_only, coefficient});
+  }
+  /// Adds the terms of a row of another list, times a factor.
+  void add_row(std::span<const Term> row, double factor = 1) {
+    for (Term term : row) {
+      term.coefficient *= factor;
+      list_.terms.push_back(term);
+    }
+  }
+  /// True when a row reads values alone.
+  bool is_value(std::span<const Term> row) const {
+    for (const Term& term : row) {
+      if (term.derivative != value_only && order_of<Dim>(derivatives_[term.derivative]) > 0) {
+        return false;
+      }
+    }
+    return true;
   }
   /// Ends the equation: the sum of its terms equals `right_hand_side`.
   void equals(double right_hand_side) {

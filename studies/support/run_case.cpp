@@ -82,6 +82,23 @@ void write_fields(const RunOptions& options, const CaseKey& key, const Discretis
   write_vtu<Dim>(*options.vtk, key, scene.cloud.nodes, arrays);
 }
 
+/// Cell volumes of all nodes of the sites; a mirror image has that of its node.
+template <int Dim>
+Eigen::VectorXd cell_volumes(const Discretisation<Dim>& scene, const Domain<Dim>& domain,
+                             const RunOptions& options) {
+  const int count = scene.cloud.size();
+  if (scene.unknowns.count > count) {
+    throw SkipCase("the method needs cell volumes, which ghost nodes have none of");
+  }
+  const auto search = make_search<Dim>(options.neighbours, scene.cloud.nodes);
+  Eigen::VectorXd volumes = voronoi_volumes<Dim>(scene.cloud, domain, *search);
+  volumes.conservativeResize(scene.sites.node_count());
+  for (int node = count; node < scene.sites.node_count(); ++node) {
+    volumes[node] = volumes[scene.unknowns.source[node]];
+  }
+  return volumes;
+}
+
 template <int Dim>
 std::vector<int> field_axes(const SteadyProblem<Dim>& problem) {
   std::vector<int> axes;
@@ -89,39 +106,6 @@ std::vector<int> field_axes(const SteadyProblem<Dim>& problem) {
     axes.push_back(problem.vector_axis(f));
   }
   return axes;
-}
-
-template <int Dim>
-CaseResult run_once(const SteadyProblem<Dim>& problem, const CaseKey& key,
-                    const RunOptions& options) {
-  const StageClock clock(options.threads);
-  CaseResult result;
-  StageTimes& times = result.times;
-  reset_peak_memory();
-  const auto made = discretise(problem, key, options, times);
-  const Discretisation<Dim>& scene = *made;
-  const std::vector<std::string> fields = problem.fields();
-  const int field_count = static_cast<int>(fields.size());
-  const LinearSystem system = clock.time(times.assemble, [&] {
-    return assemble(scene.equations(scene.derivatives), scene.weights, scene.unknowns, field_count);
-  });
-  const LinearSolution linear = clock.time(times.solve, [&] { return solve(system, key.solver); });
-  times.peak_mb = peak_memory_mb();
-  times.residual = linear.residual;
-
-  const Eigen::MatrixXd parameters = scene.unknowns.spread(
-      Eigen::Map<const Eigen::MatrixXd>(linear.x.data(), field_count, scene.unknowns.count));
-  const Solution<Dim> solution{scene.cloud, nodal_values(scene, parameters), parameters,
-                               scene.weights, scene.derivatives};
-  if (options.vtk) write_fields<Dim>(options, key, scene, fields, solution.fields);
-  const std::vector<std::string> names = problem.quantities();
-  const std::vector<double> values = problem.measure(solution);
-  for (std::size_t q = 0; q < names.size(); ++q)
-    result.quantities.push_back({names[q], values[q], {}, {}});
-  result.nodes = scene.cloud.size();
-  result.unknowns = system.unknowns();
-  result.spacing = scene.cloud.spacing();
-  return result;
 }
 
 }  // namespace
@@ -147,7 +131,7 @@ void choose_stencils(Discretisation<Dim>& scene, const Domain<Dim>& domain,
   if (choices.method->needs().volumes) {
     double seconds = 0;
     scene.sites.volumes =
-        clock.time(seconds, [&] { return voronoi_volumes<Dim>(scene.cloud, domain, *engine); });
+        clock.time(seconds, [&] { return cell_volumes<Dim>(scene, domain, options); });
     times.voronoi += seconds;
     times.prepare += seconds;
   }
@@ -207,6 +191,39 @@ std::unique_ptr<Discretisation<Dim>> discretise(const SteadyProblem<Dim>& proble
   return made;
 }
 
+template <int Dim>
+CaseResult solve_steady(const SteadyProblem<Dim>& problem, const CaseKey& key,
+                        const RunOptions& options) {
+  const StageClock clock(options.threads);
+  CaseResult result;
+  StageTimes& times = result.times;
+  reset_peak_memory();
+  const auto made = discretise(problem, key, options, times);
+  const Discretisation<Dim>& scene = *made;
+  const std::vector<std::string> fields = problem.fields();
+  const int field_count = static_cast<int>(fields.size());
+  const LinearSystem system = clock.time(times.assemble, [&] {
+    return assemble(scene.equations(scene.derivatives), scene.weights, scene.unknowns, field_count);
+  });
+  const LinearSolution linear = clock.time(times.solve, [&] { return solve(system, key.solver); });
+  times.peak_mb = peak_memory_mb();
+  times.residual = linear.residual;
+
+  const Eigen::MatrixXd parameters = scene.unknowns.spread(
+      Eigen::Map<const Eigen::MatrixXd>(linear.x.data(), field_count, scene.unknowns.count));
+  const Solution<Dim> solution{scene.cloud, nodal_values(scene, parameters), parameters,
+                               scene.weights, scene.derivatives};
+  if (options.vtk) write_fields<Dim>(options, key, scene, fields, solution.fields);
+  const std::vector<std::string> names = problem.quantities();
+  const std::vector<double> values = problem.measure(solution);
+  for (std::size_t q = 0; q < names.size(); ++q)
+    result.quantities.push_back({names[q], values[q], {}, {}});
+  result.nodes = scene.cloud.size();
+  result.unknowns = system.unknowns();
+  result.spacing = scene.cloud.spacing();
+  return result;
+}
+
 std::vector<std::string> steady_quantities(const CaseKey& key) {
   return with_problem<SteadyProblem>(key.problem, "steady",
                                      [](const auto& problem) { return problem.quantities(); });
@@ -215,11 +232,11 @@ std::vector<std::string> steady_quantities(const CaseKey& key) {
 CaseResult run_steady_case(const CaseKey& key, const RunOptions& options) {
   return with_problem<SteadyProblem>(
       key.problem, "steady", [&]<int Dim>(const SteadyProblem<Dim>& problem) {
-        CaseResult result = run_once<Dim>(problem, key, options);
+        CaseResult result = solve_steady<Dim>(problem, key, options);
         RunOptions again = options;
         again.vtk.reset();
         for (int run = 1; run < options.repeat; ++run) {
-          result.times = fastest(result.times, run_once<Dim>(problem, key, again).times);
+          result.times = fastest(result.times, solve_steady<Dim>(problem, key, again).times);
         }
         return result;
       });
@@ -238,6 +255,9 @@ StageTimes fastest(const StageTimes& a, const StageTimes& b) {
           .residual = std::max(a.residual, b.residual)};
 }
 
+template CaseResult solve_steady(const SteadyProblem<3>&, const CaseKey&, const RunOptions&);
+template CaseResult solve_steady(const SteadyProblem<2>&, const CaseKey&, const RunOptions&);
+template CaseResult solve_steady(const SteadyProblem<1>&, const CaseKey&, const RunOptions&);
 template PointCloud<1> make_case_cloud(const Domain<1>&, const CaseKey&, const RunOptions&);
 template PointCloud<2> make_case_cloud(const Domain<2>&, const CaseKey&, const RunOptions&);
 template PointCloud<3> make_case_cloud(const Domain<3>&, const CaseKey&, const RunOptions&);

@@ -67,6 +67,12 @@ PointCloud<Dim> make_case_cloud(const Domain<Dim>& domain, const CaseKey& key,
 /// Names of what a steady case measures. Throws SkipCase when the problem is of another kind.
 std::vector<std::string> steady_quantities(const CaseKey& key);
 
+/// Solves a steady problem once: the system's size, times and what the problem measures. Throws
+/// SkipCase and CaseError.
+template <int Dim>
+CaseResult solve_steady(const SteadyProblem<Dim>& problem, const CaseKey& key,
+                        const RunOptions& options);
+
 /// Runs a steady case from cloud to measured quantities; the times are minima over `repeat` runs.
 /// With `options.vtk` the fields at the nodes are written.
 /// Throws SkipCase and CaseError.
