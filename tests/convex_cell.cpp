@@ -1,5 +1,6 @@
 #include "problems/core/convex_cell.hpp"
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -107,6 +108,33 @@ TEST(ConvexCell, IsCutExactlyByPlanesThroughVertices) {
   EXPECT_EQ(square.clip(Point<2>(1, 1).normalized(), 0), Clip::cut);
   EXPECT_NEAR(square.measure(), 2, round_off);
   EXPECT_EQ(square.vertices().size(), 3U);
+}
+
+TEST(ConvexCell, FacesKeepTheLabelsOfTheirPlanes) {
+  // One plane through the end of an edge, one through its middle: sums of normals by label.
+  ConvexCell<2> square = box<2>(1);
+  square.clip(Point<2>(1, 1).normalized(), 0, 7);
+  square.clip(Point<2>(-1, 0), 0.5, 8);
+  std::array<double, 2> lengths{};
+  const std::vector<Point<2>>& corners = square.vertices();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const int label = square.label(static_cast<int>(i));
+    const double length = (corners[(i + 1) % corners.size()] - corners[i]).norm();
+    if (label >= 7) lengths[static_cast<std::size_t>(label - 7)] += length;
+  }
+  EXPECT_NEAR(lengths[0], 1.5 * std::sqrt(2), round_off);
+  EXPECT_NEAR(lengths[1], 1.5, round_off);
+  ConvexCell<1> interval = box<1>(1);
+  interval.clip(Point<1>(-1), 0.5, 3);
+  EXPECT_EQ(interval.label(0), 3);
+  EXPECT_EQ(interval.label(1), unlabelled);
+  ConvexCell<3> cube = box<3>(1);
+  cube.clip(Point<3>::UnitZ(), 0.25, 5);
+  ASSERT_EQ(cube.face_count(), 6);
+  for (int face = 0; face < 6; ++face) {
+    if (cube.label(face) != 5) continue;
+    for (int v : cube.face(face)) EXPECT_EQ(cube.vertices()[v][2], 0.25);
+  }
 }
 
 TEST(ConvexCell, BecomesAnOctahedron) {

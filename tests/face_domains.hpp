@@ -17,10 +17,14 @@ class UnmappedDomain : public Domain<2> {
   std::vector<int> sides_at(const Point<2>&) const override { return {}; }
 };
 
+/// Whether a domain tells its pieces, and with them its corners.
+enum class Corners { told, secret };
+
 /// A polygon given by its corners, counter-clockwise; every edge is a side, named by its number.
 class PolygonDomain final : public UnmappedDomain {
  public:
-  explicit PolygonDomain(std::vector<Point<2>> corners) : corners_(std::move(corners)) {
+  explicit PolygonDomain(std::vector<Point<2>> corners, Corners telling = Corners::told)
+      : corners_(std::move(corners)), telling_(telling) {
     for (std::size_t i = 0; i < corners_.size(); ++i) names_.push_back(std::to_string(i));
   }
 
@@ -54,7 +58,7 @@ class PolygonDomain final : public UnmappedDomain {
   }
   std::vector<BoundaryPiece<2>> pieces() const override {
     std::vector<BoundaryPiece<2>> result;
-    for (int i = 0; i < count(); ++i) {
+    for (int i = 0; i < count() && telling_ == Corners::told; ++i) {
       const Point<2> a = corner(i), b = corner(i + 1);
       result.push_back({i, [a, b](const BoundaryPiece<2>::Parameter& t) -> Point<2> {
                           return t[0] == 1 ? b : Point<2>(a + t[0] * (b - a));
@@ -65,6 +69,7 @@ class PolygonDomain final : public UnmappedDomain {
 
  private:
   std::vector<Point<2>> corners_;
+  Corners telling_;
   std::vector<std::string> names_;
 
   int count() const { return static_cast<int>(corners_.size()); }
@@ -72,8 +77,8 @@ class PolygonDomain final : public UnmappedDomain {
 };
 
 /// [0,1]^2 without its upper right quarter.
-inline PolygonDomain l_shape() {
-  return PolygonDomain({{0, 0}, {1, 0}, {1, 0.5}, {0.5, 0.5}, {0.5, 1}, {0, 1}});
+inline PolygonDomain l_shape(Corners telling = Corners::told) {
+  return PolygonDomain({{0, 0}, {1, 0}, {1, 0.5}, {0.5, 0.5}, {0.5, 1}, {0, 1}}, telling);
 }
 
 /// [0,1]^2 with a notch from above, 0.04 wide.

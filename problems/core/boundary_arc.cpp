@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "problems/core/line_crossings.hpp"
+
 namespace strongpoint {
 namespace {
 
@@ -99,32 +101,33 @@ bool BoundaryArc::is_straight(const Chord& chord) const {
   return true;
 }
 
-/// Height of the boundary above a place on the chord by secants; NaN when they do not get there.
-double BoundaryArc::height(const Chord& chord, double t) const {
+/// Height of the boundary above a place on the chord, where one leaves the domain upwards: by
+/// secants, or by search when they find another boundary. Nothing within the chord's length fails.
+std::optional<double> BoundaryArc::height(const Chord& chord, double t) {
   constexpr int most_steps = 30;
   const double enough = tolerance(chord, 0) / 4;
   double before = 0;
   double distance_before = distance(chord.at(t));
   double now = -distance_before;  // the distance grows along the normal
-  for (int step = 0; step < most_steps; ++step) {
-    if (!(std::abs(now) <= chord.length)) break;
+  for (int step = 0; step < most_steps && std::abs(now) <= chord.length; ++step) {
     const double distance_now = distance(chord.at(t, now));
-    if (std::abs(distance_now) <= enough) return now;
-    const double change = distance_now - distance_before;
-    if (change == 0) break;
-    const double next = now - distance_now * (now - before) / change;
+    const double slope = (distance_now - distance_before) / (now - before);
+    if (std::abs(distance_now) <= enough && !(slope <= 0)) return now;
+    if (!(slope > 0)) break;
     before = now;
     distance_before = distance_now;
-    now = next;
+    now -= distance_now / slope;
   }
-  return std::numeric_limits<double>::quiet_NaN();
+  return height_of_boundary<2>(domain_, centre_ + chord.at(t), chord.normal, chord.length, 0,
+                               scratch_);
 }
 
 /// Finds the heights of a stretch; false when their polynomial leaves the boundary.
-bool BoundaryArc::follow(const Chord& chord, Heights& heights) const {
+bool BoundaryArc::follow(const Chord& chord, Heights& heights) {
   for (std::size_t i = 0; i < curved_points; ++i) {
-    heights[i] = height(chord, curved_.at[i]);
-    if (std::isnan(heights[i])) return false;
+    const std::optional<double> found = height(chord, curved_.at[i]);
+    if (!found) return false;
+    heights[i] = *found;
   }
   const double allowed = tolerance(chord, curve_tolerance);
   for (std::size_t place = 0; place < checked_places.size(); ++place) {
@@ -155,7 +158,7 @@ void BoundaryArc::add_curved(const Chord& chord, const Heights& heights,
 }
 
 /// Where to split a stretch: at the centre when that is a node on it, else half-way.
-Point<2> BoundaryArc::middle(const Chord& chord, int depth) const {
+Point<2> BoundaryArc::middle(const Chord& chord, int depth) {
   const double t = -chord.from.dot(chord.along) / (chord.length * chord.length);
   const double up = -chord.from.dot(chord.normal);
   constexpr double margin = 0.05;  // else the node is hardly better than an end
@@ -163,8 +166,7 @@ Point<2> BoundaryArc::middle(const Chord& chord, int depth) const {
       std::abs(distance(Point<2>::Zero())) <= tolerance(chord, straight_tolerance)) {
     return Point<2>::Zero();
   }
-  const double half_way = height(chord, 0.5);
-  return chord.at(0.5, std::isnan(half_way) ? 0 : half_way);
+  return chord.at(0.5, height(chord, 0.5).value_or(0));
 }
 
 }  // namespace strongpoint

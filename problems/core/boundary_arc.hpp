@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "problems/core/cell_faces.hpp"
@@ -39,17 +40,18 @@ class BoundaryArc {
   std::array<Heights, curved_points> derivative_;  ///< of the polynomial with heights 0 at its ends
   std::array<Heights, 2> between_;                 ///< its values at `checked_places`
   Point<2> centre_ = Point<2>::Zero();
+  std::vector<double> scratch_;
 
   void trace(const Point<2>& from, const Point<2>& to, int depth,
              std::vector<FacePoint<2>>& points);
   double tolerance(const Chord& chord, double relative) const;
   bool is_straight(const Chord& chord) const;
-  double height(const Chord& chord, double t) const;
-  bool follow(const Chord& chord, Heights& heights) const;
+  std::optional<double> height(const Chord& chord, double t);
+  bool follow(const Chord& chord, Heights& heights);
   void add_straight(const Chord& chord, std::vector<FacePoint<2>>& points) const;
   void add_curved(const Chord& chord, const Heights& heights,
                   std::vector<FacePoint<2>>& points) const;
-  Point<2> middle(const Chord& chord, int depth) const;
+  Point<2> middle(const Chord& chord, int depth);
 };
 
 }  // namespace strongpoint

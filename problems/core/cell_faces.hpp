@@ -40,9 +40,12 @@ struct CellFaces {
 /// each stretch is an interpolant of degree 7 through points on the side (`boundary_arc.hpp`), and
 /// cells add up to the domain to 1e-10. Corners are the ends of the domain's pieces and nodes on
 /// two sides. Parts of the boundary that lie inside a cell without crossing its faces are missed.
-/// 1D: the two ends, each of area 1. 3D: polyhedra cut exactly by flat sides and by tangent planes
-/// along curved ones, an error of O(h^2); faces are cut into triangles with rules of 1, 3, 6 and 16
-/// points, of degree 1, 2, 4 and 6, but a single point for the whole face when gauss is 1.
+/// 1D: the two ends, each of area 1. 3D: faces are cut into triangles with rules of 1, 3, 6 and 16
+/// points, of degree 1, 2, 4 and 6, but a single point for the whole face when gauss is 1. Flat
+/// sides cut exactly. Cells follow a curved side when it is the only one near them
+/// (`curved_cell.hpp`); measures then err by O(h^2), O(h^4) and O(h^6) for gauss 1, 2 and 3 or
+/// more. Elsewhere cells are cut by tangent planes, an error of O(h^2), and faces that end on the
+/// side match to that order. Points near curved sides may have areas of either sign.
 ///
 /// Throws CaseError, naming the node, for a cell that is empty or not bounded, and
 /// std::invalid_argument unless gauss is 1 to 4.

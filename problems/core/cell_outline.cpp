@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <tuple>
 #include <utility>
 
 #include "problems/core/distance_gradient.hpp"
 #include "problems/core/line_crossings.hpp"
+#include "problems/core/side_finder.hpp"
 
 namespace strongpoint {
 namespace {
@@ -21,38 +21,6 @@ constexpr double same_place = 1e-11;
 
 /// Distance from the boundary, relative to the cell, beyond which a piece's end is no corner of it.
 constexpr double on_boundary = 1e-8;
-
-/// Cosine above which a side's normal is that of a point between nodes of the side.
-constexpr double fitting_normal = 0.99;
-
-/// Difference of cosines that does not tell two sides apart.
-constexpr double same_cosine = 1e-9;
-
-/// The side among some whose normal is nearest to one given.
-struct BestSide {
-  int side = -1;
-  double cosine = -2;
-  bool is_tied = false;
-
-  void offer(int candidate, double its_cosine) {
-    if (its_cosine > cosine + same_cosine) {
-      side = candidate;
-      cosine = its_cosine;
-      is_tied = false;
-    } else if (candidate != side && its_cosine > cosine - same_cosine) {
-      is_tied = true;
-    }
-  }
-};
-
-BestSide best_mark(const Domain<2>& domain, std::span<const BoundaryMark<2>> marks,
-                   const Point<2>& x, const Point<2>& normal) {
-  BestSide best;
-  for (const BoundaryMark<2>& mark : marks) {
-    best.offer(mark.side, domain.normal(mark.side, x).dot(normal));
-  }
-  return best;
-}
 
 /// How much longer the way from a to b becomes through x.
 double detour(const Point<2>& a, const Point<2>& x, const Point<2>& b) {
@@ -257,47 +225,14 @@ bool CellOutline::holds(const Point<2>& corner) const {
 
 void CellOutline::add_boundary(std::vector<FacePoint<2>>& points) {
   arc_.set_centre(centre_);
+  const SideFinder finder{cloud_, domain_, node_, *polygon_};
   const std::size_t first = points.size();
   for (const std::vector<Point<2>>& way : ways()) {
     for (std::size_t i = 1; i < way.size(); ++i) arc_.trace(way[i - 1], way[i], points);
   }
   for (std::size_t i = first; i < points.size(); ++i) {
-    points[i].side = side_at(points[i].x, points[i].area.normalized());
+    points[i].side = finder.side_at(points[i].x, points[i].area.normalized());
   }
-}
-
-/// The side of a point on the boundary: one of the node's whose normal fits, or one of the nearest
-/// neighbour that lies on the boundary, or any.
-int CellOutline::side_at(const Point<2>& x, const Point<2>& normal) const {
-  const BestSide own = best_mark(domain_, cloud_.marks_of(node_), x, normal);
-  const bool own_fits = own.cosine > fitting_normal;
-  if (own_fits && !own.is_tied) return own.side;
-  const int neighbour = nearest_marked_neighbour(x);
-  if (neighbour >= 0) {
-    const BestSide near = best_mark(domain_, cloud_.marks_of(neighbour), x, normal);
-    if (near.cosine > fitting_normal) return near.side;
-  }
-  if (own_fits) return own.side;
-  BestSide any;
-  for (int side = 0; side < static_cast<int>(domain_.sides().size()); ++side) {
-    any.offer(side, domain_.normal(side, x).dot(normal));
-  }
-  return any.side;
-}
-
-/// The node beyond an edge of the polygon that lies on the boundary and is nearest to x, or -1.
-int CellOutline::nearest_marked_neighbour(const Point<2>& x) const {
-  int nearest = -1;
-  double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < static_cast<int>(polygon_->vertices().size()); ++i) {
-    const int neighbour = polygon_->label(i);
-    if (neighbour < 0 || !cloud_.is_boundary(neighbour)) continue;
-    const double distance = (cloud_.nodes.col(neighbour) - x).squaredNorm();
-    if (distance >= least) continue;
-    least = distance;
-    nearest = neighbour;
-  }
-  return nearest;
 }
 
 }  // namespace strongpoint

@@ -68,8 +68,6 @@ class CellOutline {
   void put_corners_on_ways();
   bool holds(const Point<2>& corner) const;
   void add_boundary(std::vector<FacePoint<2>>& points);
-  int side_at(const Point<2>& x, const Point<2>& normal) const;
-  int nearest_marked_neighbour(const Point<2>& x) const;
 };
 
 }  // namespace strongpoint

@@ -154,18 +154,7 @@ bool CurvedCell::add_curve(int leaves, int enters, const Point<3>& normal,
 
 /// How far from x the side is, up to `reach` either way.
 std::optional<double> CurvedCell::height(const Point<3>& x, const Point<3>& up, double reach) {
-  const double here = distance(x);
-  const double sign = here <= inside_ ? 1 : -1;
-  const double first_step = std::max(1.1 * std::abs(here), 1e-3 * reach);
-  for (double step = first_step; step <= reach; step = std::min(2 * step, 1.001 * reach)) {
-    const Point<3> there = x + sign * step * up;
-    const double beyond = distance(there);
-    if ((beyond <= inside_) == (here <= inside_)) continue;
-    find_crossings<3>(domain_, {centre_ + x, centre_ + there, here, beyond, inside_},
-                      std::numeric_limits<double>::infinity(), parameters_);
-    return sign * step * parameters_.front();
-  }
-  return std::nullopt;
+  return height_of_boundary<3>(domain_, centre_ + x, up, reach, inside_, parameters_);
 }
 
 /// Collects the curves around the next patch in order; false when there is none left.

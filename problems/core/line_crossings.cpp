@@ -128,6 +128,31 @@ void find_crossings(const Domain<Dim>& domain, const DistanceLine<Dim>& line, do
       .search({0, line.distance_from - line.inside}, {1, line.distance_to - line.inside});
 }
 
+template <int Dim>
+std::optional<double> height_of_boundary(const Domain<Dim>& domain, const Point<Dim>& x,
+                                         const Point<Dim>& up, double reach, double inside,
+                                         std::vector<double>& scratch) {
+  const double here = domain.distance(x);
+  const double sign = here <= inside ? 1 : -1;
+  // No crossing is nearer than the distance says.
+  const double first_step = std::max(1.1 * std::abs(here), 1e-3 * reach);
+  for (double step = first_step; step <= reach; step *= 2) {
+    const Point<Dim> there = x + sign * step * up;
+    const double beyond = domain.distance(there);
+    if ((beyond <= inside) == (here <= inside)) continue;
+    find_crossings<Dim>(domain, {x, there, here, beyond, inside},
+                        std::numeric_limits<double>::infinity(), scratch);
+    return sign * step * scratch.front();
+  }
+  return std::nullopt;
+}
+
+template std::optional<double> height_of_boundary<2>(const Domain<2>&, const Point<2>&,
+                                                     const Point<2>&, double, double,
+                                                     std::vector<double>&);
+template std::optional<double> height_of_boundary<3>(const Domain<3>&, const Point<3>&,
+                                                     const Point<3>&, double, double,
+                                                     std::vector<double>&);
 template void find_crossings<2>(const Domain<2>&, const DistanceLine<2>&, double,
                                 std::vector<double>&);
 template void find_crossings<3>(const Domain<3>&, const DistanceLine<3>&, double,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "problems/core/domain.hpp"
@@ -22,5 +23,13 @@ struct DistanceLine {
 template <int Dim>
 void find_crossings(const Domain<Dim>& domain, const DistanceLine<Dim>& line, double resolution,
                     std::vector<double>& crossings);
+
+/// Finds the boundary from x along a unit vector, forwards when x is inside and backwards when it
+/// is outside: the way there, of either sign, or nothing within `reach`. Distances up to `inside`
+/// count as inside; `scratch` is overwritten.
+template <int Dim>
+std::optional<double> height_of_boundary(const Domain<Dim>& domain, const Point<Dim>& x,
+                                         const Point<Dim>& up, double reach, double inside,
+                                         std::vector<double>& scratch);
 
 }  // namespace strongpoint
