@@ -232,5 +232,22 @@ TEST(CellFaces, ANodeWithoutACellIsNamed) {
   EXPECT_THROW(faces_of<2>(unit_cloud<2>("grid", 9), UnitCube<2>(), 5), std::invalid_argument);
 }
 
+TEST(CellFaces, ABoundaryThatCannotBeFollowedIsNamed) {
+  // Three nodes are too few for the hole of a ring: a cell is right, or it is named.
+  const RingDomain ring;
+  int named = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const PointCloud<2> cloud = free_cloud(ring, 3, seed);
+    try {
+      EXPECT_NEAR(total_measure(cloud, faces_of(cloud, ring)), ring.measure(), curve_error);
+    } catch (const CaseError& error) {
+      const std::string message = error.what();
+      EXPECT_NE(message.find("could not be followed"), std::string::npos) << message;
+      ++named;
+    }
+  }
+  EXPECT_GT(named, 0);
+}
+
 }  // namespace
 }  // namespace strongpoint

@@ -47,8 +47,9 @@ struct CellFaces {
 /// more. Elsewhere cells are cut by tangent planes, an error of O(h^2), and faces that end on the
 /// side match to that order. Points near curved sides may have areas of either sign.
 ///
-/// Throws CaseError, naming the node, for a cell that is empty or not bounded, and
-/// std::invalid_argument unless gauss is 1 to 4.
+/// Throws CaseError, naming the node, for a cell that is empty or not bounded, or in which the
+/// boundary cannot be followed (2D, cells larger than its features), and std::invalid_argument
+/// unless gauss is 1 to 4.
 template <int Dim>
 CellFaces<Dim> cell_faces(const PointCloud<Dim>& cloud, const Domain<Dim>& domain,
                           const NeighbourSearch<Dim>& search, int gauss);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
+#include <span>
 #include <utility>
 
 #include "problems/core/distance_gradient.hpp"
@@ -16,8 +16,16 @@ namespace {
 /// Features of the boundary smaller than this fraction of a cell may be missed on its faces.
 constexpr double resolution = 1.0 / 64;
 
+/// A way along the boundary went wrong where it is this far off, relative to the cell, or where its
+/// normal and the side's have a smaller cosine; on a corner that nobody announced it is near both.
+constexpr double off_boundary = 0.02;
+constexpr double backwards = -0.5;
+
 /// Corners nearer than this fraction of the cell to a crossing or to each other are one.
 constexpr double same_place = 1e-11;
+
+/// Corners of a way that are tried in every order.
+constexpr std::size_t most_corners = 6;
 
 /// Distance from the boundary, relative to the cell, beyond which a piece's end is no corner of it.
 constexpr double on_boundary = 1e-8;
@@ -65,6 +73,7 @@ double CellOutline::add(int node, const ConvexCell<2>& polygon, std::vector<Face
   node_ = node;
   centre_ = cloud_.nodes.col(node);
   polygon_ = &polygon;
+  is_broken_ = false;
   radius_ = std::sqrt(farthest_squared(polygon));
   const std::vector<Point<2>>& corners = polygon.vertices();
   if (-domain_.distance(centre_) > radius_) {
@@ -110,7 +119,7 @@ void CellOutline::add_inner_faces(std::vector<FacePoint<2>>& points) {
     for (double t : parameters_) {
       const Point<2> x = corners[i] + t * (corners[next] - corners[i]);
       if (is_inside) add_face(start, x, polygon_->label(static_cast<int>(i)), points);
-      crossings_.push_back({x, is_inside, false});
+      crossings_.push_back({x, Point<2>::Zero(), is_inside});
       start = x;
       is_inside = !is_inside;
     }
@@ -128,44 +137,19 @@ void CellOutline::add_face(const Point<2>& from, const Point<2>& to, int neighbo
   }
 }
 
-/// Finds where each stretch of the boundary that begins at a crossing ends. Stretches do not cross.
-/// Of several, those come first whose ends point at each other.
+/// Finds where each stretch of the boundary that begins at a crossing ends.
 void CellOutline::pair_crossings() {
-  const int count = static_cast<int>(crossings_.size());
-  candidates_.clear();
-  stretches_.clear();
-  for (int leaves = 0; leaves < count; ++leaves) {
-    for (int enters = 0; enters < count; ++enters) {
-      if (crossings_[leaves].leaves && !crossings_[enters].leaves) add_candidate(leaves, enters);
+  if (crossings_.size() > 2) {
+    for (BoundaryCrossing& crossing : crossings_) {
+      crossing.along = way_along_boundary(crossing.x);
     }
   }
-  std::sort(candidates_.begin(), candidates_.end(), [](const Stretch& a, const Stretch& b) {
-    return std::tuple(-a.score, a.leaves, a.enters) < std::tuple(-b.score, b.leaves, b.enters);
-  });
-  for (const Stretch& candidate : candidates_) {
-    if (!fits(candidate)) continue;
-    crossings_[candidate.leaves].is_paired = true;
-    crossings_[candidate.enters].is_paired = true;
-    stretches_.push_back(candidate);
-    if (ways_.size() < stretches_.size()) ways_.emplace_back();
-    ways_[stretches_.size() - 1].assign(
-        {crossings_[candidate.leaves].x, crossings_[candidate.enters].x});
+  pairs_.find(crossings_);
+  const std::span<const Stretch> stretches = pairs_.stretches();
+  if (ways_.size() < stretches.size()) ways_.resize(stretches.size());
+  for (std::size_t i = 0; i < stretches.size(); ++i) {
+    ways_[i].assign({crossings_[stretches[i].leaves].x, crossings_[stretches[i].enters].x});
   }
-}
-
-void CellOutline::add_candidate(int leaves, int enters) {
-  Stretch candidate{leaves, enters, 0};
-  const Point<2> chord = crossings_[enters].x - crossings_[leaves].x;
-  const double length = chord.norm();
-  if (length <= same_place * radius_) {
-    candidate.score = 2;
-  } else if (crossings_.size() > 2) {
-    candidate.score =
-        (way_along_boundary(crossings_[leaves].x) + way_along_boundary(crossings_[enters].x))
-            .dot(chord) /
-        length;
-  }
-  candidates_.push_back(candidate);
 }
 
 /// Unit tangent of the boundary with the domain to its left.
@@ -173,19 +157,6 @@ Point<2> CellOutline::way_along_boundary(const Point<2>& x) const {
   constexpr double step = 1e-6;  // of the cell: central differences lose a third of the digits
   const Point<2> out = distance_gradient<2>(domain_, centre_ + x, step * radius_).normalized();
   return {-out[1], out[0]};
-}
-
-/// Whether both ends are free and no stretch already chosen separates them.
-bool CellOutline::fits(const Stretch& candidate) const {
-  if (crossings_[candidate.leaves].is_paired || crossings_[candidate.enters].is_paired) {
-    return false;
-  }
-  const auto [low, high] = std::minmax(candidate.leaves, candidate.enters);
-  return std::all_of(stretches_.begin(), stretches_.end(), [&](const Stretch& other) {
-    const bool first = other.leaves > low && other.leaves < high;
-    const bool second = other.enters > low && other.enters < high;
-    return first == second;
-  });
 }
 
 /// Puts the corners inside the polygon on the way that they lengthen least.
@@ -208,6 +179,44 @@ void CellOutline::put_corners_on_ways() {
     if (is_known || best == nullptr) continue;
     best->insert(best->begin() + static_cast<std::ptrdiff_t>(best_place.first), x);
   }
+  for (std::vector<Point<2>>& way : ways()) put_in_order(way);
+}
+
+/// Puts the corners of a way in the order in which the boundary visits them, where the shortest way
+/// does not.
+void CellOutline::put_in_order(std::vector<Point<2>>& way) const {
+  if (way.size() < 4 || way.size() > most_corners + 2) return;
+  double least = misfit(way);
+  if (least <= on_boundary * radius_) return;
+  std::vector<Point<2>> other = way;
+  const auto by_place = [](const Point<2>& a, const Point<2>& b) {
+    return std::pair(a[0], a[1]) < std::pair(b[0], b[1]);
+  };
+  std::sort(other.begin() + 1, other.end() - 1, by_place);
+  do {
+    const double its_misfit = misfit(other);
+    if (its_misfit >= least) continue;
+    least = its_misfit;
+    way = other;
+  } while (std::next_permutation(other.begin() + 1, other.end() - 1, by_place));
+}
+
+/// How far a way's chords are from the boundary, in all; those that run against it count whole.
+double CellOutline::misfit(const std::vector<Point<2>>& way) const {
+  double sum = 0;
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    const Point<2> along = way[i] - way[i - 1];
+    const Point<2> normal(along[1], -along[0]);
+    double off = 0;
+    for (double t : {0.25, 0.5, 0.75}) {
+      off = std::max(off, std::abs(distance(way[i - 1] + t * along)));
+    }
+    const Point<2> middle = way[i - 1] + 0.5 * along;
+    constexpr double step = 1e-6;  // of the chord
+    const bool leaves = distance(middle + step * normal) > distance(middle - step * normal);
+    sum += leaves ? off : off + along.norm();
+  }
+  return sum;
 }
 
 /// Whether a corner lies inside the polygon and on the boundary.
@@ -231,7 +240,12 @@ void CellOutline::add_boundary(std::vector<FacePoint<2>>& points) {
     for (std::size_t i = 1; i < way.size(); ++i) arc_.trace(way[i - 1], way[i], points);
   }
   for (std::size_t i = first; i < points.size(); ++i) {
-    points[i].side = finder.side_at(points[i].x, points[i].area.normalized());
+    FacePoint<2>& point = points[i];
+    const Point<2> normal = point.area.normalized();
+    point.side = finder.side_at(point.x, normal);
+    const double cosine = domain_.normal(point.side, point.x).dot(normal);
+    const double off = std::abs(domain_.distance(point.x));
+    if (!(cosine > backwards && off <= off_boundary * radius_)) is_broken_ = true;
   }
 }
 

@@ -6,6 +6,7 @@
 #include "problems/core/boundary_arc.hpp"
 #include "problems/core/cell_faces.hpp"
 #include "problems/core/convex_cell.hpp"
+#include "problems/core/crossing_pairs.hpp"
 
 namespace strongpoint {
 
@@ -26,21 +27,11 @@ class CellOutline {
   /// labelled with the nodes beyond. Returns the largest distance from the node to the cell's
   /// boundary.
   double add(int node, const ConvexCell<2>& polygon, std::vector<FacePoint<2>>& points);
+  /// Whether the boundary inside the polygon last given could not be followed: the cell is too
+  /// large for its features.
+  bool is_broken() const { return is_broken_; }
 
  private:
-  /// Where the polygon crosses the boundary of the domain, in order around the polygon: leaving the
-  /// domain and entering it take turns.
-  struct Crossing {
-    Point<2> x;
-    bool leaves;
-    bool is_paired;
-  };
-  /// A stretch of the boundary of the domain inside the polygon, given by its crossings.
-  struct Stretch {
-    int leaves, enters;
-    double score;  ///< how well its ends point at each other, -2 to 2
-  };
-
   const PointCloud<2>& cloud_;
   const Domain<2>& domain_;
   const std::vector<Point<2>>& corners_;
@@ -49,11 +40,12 @@ class CellOutline {
   int node_ = 0;
   Point<2> centre_ = Point<2>::Zero();
   double radius_ = 0;
+  bool is_broken_ = false;
   const ConvexCell<2>* polygon_ = nullptr;
   std::vector<double> distances_;  ///< of the polygon's corners
   std::vector<double> parameters_;
-  std::vector<Crossing> crossings_;
-  std::vector<Stretch> candidates_, stretches_;
+  std::vector<BoundaryCrossing> crossings_;
+  CrossingPairs pairs_;
   std::vector<std::vector<Point<2>>> ways_;  ///< of each stretch, through the corners; kept to grow
 
   double distance(const Point<2>& x) const { return domain_.distance(centre_ + x); }
@@ -61,12 +53,12 @@ class CellOutline {
   void add_face(const Point<2>& from, const Point<2>& to, int neighbour,
                 std::vector<FacePoint<2>>& points) const;
   void pair_crossings();
-  void add_candidate(int leaves, int enters);
   Point<2> way_along_boundary(const Point<2>& x) const;
-  bool fits(const Stretch& candidate) const;
-  std::span<std::vector<Point<2>>> ways() { return {ways_.data(), stretches_.size()}; }
+  std::span<std::vector<Point<2>>> ways() { return {ways_.data(), pairs_.stretches().size()}; }
   void put_corners_on_ways();
   bool holds(const Point<2>& corner) const;
+  void put_in_order(std::vector<Point<2>>& way) const;
+  double misfit(const std::vector<Point<2>>& way) const;
   void add_boundary(std::vector<FacePoint<2>>& points);
 };
 

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
+#include "methods/core/error.hpp"
+
 namespace strongpoint {
 namespace {
 
@@ -62,6 +66,14 @@ double FaceMaker<2>::add(int node, std::span<const int> neighbours, double half,
                          std::vector<FacePoint<2>>& points) {
   maker_.make_unclipped(node, neighbours, half);
   return outline_.add(node, maker_.cell(), points);
+}
+
+void FaceMaker<2>::check(int node) const {
+  if (!outline_.is_broken()) return;
+  throw CaseError(fmt::format(
+      "the boundary inside the Voronoi cell of node {} at {} could not be followed: put "
+      "more nodes on the boundary there, or refine the cloud",
+      node, format_point(cloud_.nodes.col(node))));
 }
 
 double FaceMaker<3>::add(int node, std::span<const int> neighbours, double half,

@@ -25,19 +25,24 @@ struct FaceSetting {
 
 /// Appends the points of a node's cell once its neighbours settle it. A maker is called as
 /// `maker.add(node, neighbours, half_width, points)`, makes the cell within a box and returns how
-/// far the cell reaches.
+/// far the cell reaches; `maker.check(node)` throws CaseError when it is not sound.
 template <int Dim, class Maker>
 CellState add_settled(const PointCloud<Dim>& cloud, Maker& maker, int node,
                       std::span<const int> neighbours, std::vector<FacePoint<Dim>>& points) {
   const double reach = reach_of(cloud, node, neighbours);
   if (static_cast<int>(neighbours.size()) < cloud.size()) {
     const double farthest = maker.add(node, neighbours, box_for(reach), points);
-    return 2 * farthest <= reach ? CellState::settled : CellState::open;
+    if (2 * farthest > reach) return CellState::open;
+    maker.check(node);
+    return CellState::settled;
   }
   // With all nodes known the domain alone bounds the cell, and the box must hold it.
   for (double half = 2 * reach; std::isfinite(half * half) && half > 0; half *= 4) {
     const std::size_t before = points.size();
-    if (maker.add(node, neighbours, half, points) < half) return CellState::settled;
+    if (maker.add(node, neighbours, half, points) < half) {
+      maker.check(node);
+      return CellState::settled;
+    }
     points.resize(before);
   }
   return CellState::unbounded;
@@ -57,6 +62,8 @@ class FaceMaker<1> {
   /// Appends the points of a cell within a box; returns how far it reaches.
   double add(int node, std::span<const int> neighbours, double half,
              std::vector<FacePoint<1>>& points);
+  /// Does nothing: such cells are sound.
+  void check(int) const {}
 
  private:
   const PointCloud<1>& cloud_;
@@ -69,13 +76,17 @@ class FaceMaker<2> {
  public:
   /// The setting must outlive the maker.
   explicit FaceMaker(const FaceSetting<2>& setting)
-      : maker_(setting.cloud, setting.domain),
+      : cloud_(setting.cloud),
+        maker_(setting.cloud, setting.domain),
         outline_(setting.cloud, setting.domain, setting.corners, setting.gauss) {}
   /// Appends the points of a cell within a box; returns how far it reaches.
   double add(int node, std::span<const int> neighbours, double half,
              std::vector<FacePoint<2>>& points);
+  /// Throws CaseError, naming the node, when the boundary inside its cell could not be followed.
+  void check(int node) const;
 
  private:
+  const PointCloud<2>& cloud_;
   CellMaker<2> maker_;
   CellOutline outline_;
 };
@@ -96,6 +107,8 @@ class FaceMaker<3> {
   /// Appends the points of a cell within a box; returns how far it reaches.
   double add(int node, std::span<const int> neighbours, double half,
              std::vector<FacePoint<3>>& points);
+  /// Does nothing: such cells are sound.
+  void check(int) const {}
 
  private:
   const FaceSetting<3>& setting_;

@@ -135,11 +135,14 @@ std::optional<double> height_of_boundary(const Domain<Dim>& domain, const Point<
   const double here = domain.distance(x);
   const double sign = here <= inside ? 1 : -1;
   // No crossing is nearer than the distance says.
-  const double first_step = std::max(1.1 * std::abs(here), 1e-3 * reach);
-  for (double step = first_step; step <= reach; step *= 2) {
+  double step = std::max(1.1 * std::abs(here), 1e-3 * reach);
+  while (step <= reach) {
     const Point<Dim> there = x + sign * step * up;
     const double beyond = domain.distance(there);
-    if ((beyond <= inside) == (here <= inside)) continue;
+    if ((beyond <= inside) == (here <= inside)) {
+      step *= 2;
+      continue;
+    }
     find_crossings<Dim>(domain, {x, there, here, beyond, inside},
                         std::numeric_limits<double>::infinity(), scratch);
     return sign * step * scratch.front();
