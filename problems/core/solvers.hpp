@@ -11,7 +11,8 @@
 
 namespace strongpoint {
 
-/// A square sparse system in compressed rows; columns ascend within a row.
+/// A sparse system in compressed rows; columns ascend within a row. It is square, or has more rows
+/// than unknowns and is solved in the least-squares sense.
 struct LinearSystem {
   std::vector<std::int64_t> offsets{0};  ///< (rows + 1)
   std::vector<std::int64_t> columns;     ///< (entries)
@@ -19,6 +20,7 @@ struct LinearSystem {
   Eigen::VectorXd right_hand_side;       ///< (rows)
   int fields = 1;                        ///< unknown = node * fields + field
   std::int64_t width = 0;                ///< number of unknowns; 0: as many as rows
+  std::vector<int> order;  ///< (nodes) in which incomplete factors eliminate them; empty: as is
 
   std::int64_t rows() const { return static_cast<std::int64_t>(offsets.size()) - 1; }
   std::int64_t unknowns() const { return width > 0 ? width : rows(); }
@@ -26,8 +28,10 @@ struct LinearSystem {
 
 /// A solution of a linear system.
 struct LinearSolution {
-  Eigen::VectorXd x;
-  double residual = 0;  ///< |b - A x| / (|A| |x| + |b|), maximum norm
+  Eigen::VectorXd x;    ///< (unknowns)
+  double residual = 0;  ///< |b - A x| / (|A| |x| + |b|), maximum norm; of an overdetermined system
+                        ///< the smaller of this and |A^T r| / (|A^T| |r|), r = b - A x
+  int iterations = 0;   ///< 0 with a direct solver
 };
 
 /// Rows whose residual is above this have not been solved.
@@ -36,11 +40,20 @@ inline constexpr double largest_residual = 1e-8;
 /// Names, summaries and options of all solvers.
 const std::vector<EntryInfo>& solvers();
 
-/// Canonical form of a `--solver` spec. Throws UsageError when it is malformed or unknown.
+/// Canonical form of a `--solver` spec. Throws UsageError when it is malformed or unknown, or when
+/// a value does not fit.
 std::string canonical_solver(std::string_view spec);
 
-/// Solves a system whose rows are scaled to a largest entry of 1. Throws CaseError when the matrix
-/// is singular, the solution is not finite or the residual exceeds `largest_residual`.
+/// True when a solver iterates: it then counts iterations and reads `LinearSystem::order`.
+bool is_iterative(std::string_view solver);
+
+/// Indices that sort a coordinate of the nodes, ties by index: an order for incomplete factors.
+std::vector<int> order_along(const Eigen::Ref<const Eigen::VectorXd>& coordinate);
+
+/// Solves a system whose rows are scaled to a largest entry of 1, or weighted thereafter when it is
+/// overdetermined. Throws SkipCase when the solver serves square systems alone and this is not one;
+/// CaseError when there are fewer rows than unknowns, the matrix is singular or of deficient rank,
+/// the solution is not finite or the residual exceeds `largest_residual`.
 LinearSolution solve(const LinearSystem& system, std::string_view solver);
 
 }  // namespace strongpoint
