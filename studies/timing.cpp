@@ -30,6 +30,7 @@ bool is_taylor_fit(const std::string& method) {
 std::vector<std::string> quantities(const CaseKey& key, const Options& extra) {
   steady_quantities(key);  // skips problems of another kind
   std::vector<std::string> names{"voronoi", "voronoi_share", "total"};
+  if (is_iterative(key.solver)) names.emplace_back("iterations");
   if (!is_taylor_fit(key.method)) return names;
   for (std::size_t i = 0; i < algorithms_of(extra).size(); ++i) {
     names.insert(names.end(), phase_names.begin(), phase_names.end());
@@ -75,6 +76,10 @@ CaseResult run(const CaseKey& key, const RunOptions& options, const Options& ext
   result.quantities = {{"voronoi", voronoi, {}, {"", ""}},
                        {"voronoi_share", 100 * voronoi / total, {}, {"", ""}},
                        {"total", total, {}, {"", ""}}};
+  if (is_iterative(key.solver)) {
+    result.quantities.push_back(
+        {"iterations", static_cast<double>(result.iterations), {}, {"", ""}});
+  }
   if (!is_taylor_fit(key.method)) return result;
   for (const NamedAlgorithm& algorithm : algorithms_of(extra)) {
     with_problem<SteadyProblem>(

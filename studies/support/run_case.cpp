@@ -202,9 +202,15 @@ CaseResult solve_steady(const SteadyProblem<Dim>& problem, const CaseKey& key,
   const Discretisation<Dim>& scene = *made;
   const std::vector<std::string> fields = problem.fields();
   const int field_count = static_cast<int>(fields.size());
-  const LinearSystem system = clock.time(times.assemble, [&] {
+  LinearSystem system = clock.time(times.assemble, [&] {
     return assemble(scene.equations(scene.derivatives), scene.weights, scene.unknowns, field_count);
   });
+  if (is_iterative(key.solver)) {
+    clock.time(times.solve, [&] {
+      system.order = order_along(
+          scene.sites.nodes.row(0).head(scene.unknowns.count).transpose());
+    });
+  }
   const LinearSolution linear = clock.time(times.solve, [&] { return solve(system, key.solver); });
   times.peak_mb = peak_memory_mb();
   times.residual = linear.residual;
@@ -220,6 +226,7 @@ CaseResult solve_steady(const SteadyProblem<Dim>& problem, const CaseKey& key,
     result.quantities.push_back({names[q], values[q], {}, {}});
   result.nodes = scene.cloud.size();
   result.unknowns = system.unknowns();
+  result.iterations = linear.iterations;
   result.spacing = scene.cloud.spacing();
   return result;
 }

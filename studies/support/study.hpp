@@ -59,6 +59,7 @@ struct CaseResult {
   std::int64_t nodes = 0;
   std::int64_t unknowns = 0;
   double spacing = 0;  ///< (measure/N)^(1/Dim)
+  int iterations = 0;  ///< of the linear solver, 0 when it is direct
   std::vector<Quantity> quantities;
   StageTimes times;
 };
