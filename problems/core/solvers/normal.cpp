@@ -1,5 +1,6 @@
-#include <limits>
+#include <fmt/format.h>
 
+#include "methods/core/error.hpp"
 #include "problems/core/cholmod_session.hpp"
 #include "problems/core/solver_entry.hpp"
 
@@ -23,10 +24,14 @@ LinearSolution solve_normal(const LinearSystem& system) {
   const auto factor = take(session, cholmod_l_analyze(session.transposed(), session.common()));
   cholmod_l_factorize(session.transposed(), factor.get(), session.common());
   session.check();
-  // Below, the squared condition has eaten every digit, and a factor exists by round-off alone.
-  constexpr double least_reciprocal = std::numeric_limits<double>::epsilon();
+  // The pivots of dependent columns are round-off, of some hundred units; nearer to it no pivot can
+  // be told from those.
+  constexpr double least_reciprocal = 1e-13;
   if (cholmod_l_rcond(factor.get(), session.common()) < least_reciprocal) {
-    throw_singular(system, "normal");
+    throw CaseError(
+        fmt::format("normal: the system of {} unknowns has deficient rank, or a condition whose "
+                    "square exceeds {:.0e}; use spqr, which does not square it",
+                    system.unknowns(), 1 / least_reciprocal));
   }
   const RowMajorView matrix = view_of(system);
   LinearSolution solution;
