@@ -1,6 +1,7 @@
 #include "problems/core/domain.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace strongpoint {
 
@@ -63,6 +64,19 @@ std::vector<BoundaryPiece<Dim>> UnitCube<Dim>::pieces() const {
     };
     result.push_back({side, map});
   }
+  return result;
+}
+
+template <int Dim>
+std::vector<Feature<Dim>> UnitCube<Dim>::features() const {
+  std::vector<Feature<Dim>> result;
+  for (int side = 0; side < 2 * Dim; ++side) {
+    result.push_back(
+        {sides()[side], [side](const Point<Dim>& x) { return std::abs(x[side / 2] - side % 2); }});
+  }
+  result.push_back({"corners", [](const Point<Dim>& x) {
+                      return x.cwiseAbs().cwiseMin((x.array() - 1).abs().matrix()).norm();
+                    }});
   return result;
 }
 

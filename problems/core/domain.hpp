@@ -17,6 +17,13 @@ struct BoundaryPiece {
       map;  ///< ends (1D edges, 2D rims) are shared with neighbours
 };
 
+/// A corner, curve or face of a domain that nodes can be concentrated at.
+template <int Dim>
+struct Feature {
+  std::string name;                                   ///< letters, digits and '_'
+  std::function<double(const Point<Dim>&)> distance;  ///< from a point of the domain, not negative
+};
+
 /// The region a problem is posed on: a map from the unit cube for structured clouds, and a distance
 /// function with boundary pieces for scattered ones.
 template <int Dim>
@@ -46,6 +53,9 @@ class Domain {
   /// Wanted distance between nodes of a scattered cloud of a level; uniform unless a problem grades
   /// it.
   virtual double spacing(const Point<Dim>& x, int level) const;
+  /// Corners, curves and faces by name, for layouts that concentrate nodes; none unless the domain
+  /// names some.
+  virtual std::vector<Feature<Dim>> features() const { return {}; }
   /// Boundary marks, with normals, of the sides given.
   std::vector<BoundaryMark<Dim>> marks(const std::vector<int>& sides, const Point<Dim>& x) const;
 };
@@ -62,6 +72,8 @@ class UnitCube : public Domain<Dim> {
   Point<Dim> normal(int side, const Point<Dim>& x) const override;
   double distance(const Point<Dim>& x) const override;
   std::vector<BoundaryPiece<Dim>> pieces() const override;
+  /// The sides, and `corners`.
+  std::vector<Feature<Dim>> features() const override;
 };
 
 }  // namespace strongpoint

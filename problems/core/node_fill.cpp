@@ -29,6 +29,8 @@ constexpr double slack = 1e-9;
 constexpr double corner_tolerance = 1e-6;
 /// The same for nodes along rims, which two faces place with slightly different parameters.
 constexpr double rim_tolerance = 0.1;
+/// Nodes of a rim that only cuts a face are left out closer than this fraction of the spacing.
+constexpr double crowded = 0.8;
 /// Spacing of a front over the wanted one, so that a cloud has as many nodes as a grid: at 1 a
 /// front holds 0.87 (2D) and 0.79 (3D) nodes per h^Dim, measured on the unit cube.
 template <int Dim>
@@ -88,6 +90,30 @@ std::vector<FrontNode<Dim>> add_rims(NodeSet<Dim>& set, const BoundaryPiece<Dim>
     }
   }
   return placed;
+}
+
+/// Leaves out nodes of rims that only cut a face into pieces (they lie on one side) where they
+/// crowd nodes on the face's edge: rims may come into a corner at an acute angle. The rest keeps
+/// its order.
+NodeSet<3> without_crowded_rims(const NodeSet<3>& all, NodeSet<3> kept,
+                                const SpacingFunction<3>& spacing) {
+  NodeSet<3> edges = kept;
+  const auto append = [&](NodeSet<3>& set, int i) {
+    set.nodes.add(all.nodes[i]);
+    set.sides.push_back(all.sides[i]);
+  };
+  for (int i = 0; i < all.nodes.size(); ++i) {
+    if (all.sides[i].size() > 1) append(edges, i);
+  }
+  for (int i = 0; i < all.nodes.size(); ++i) {
+    const Point<3>& x = all.nodes[i];
+    const double reach = crowded * front_spacing<2>(spacing, x);
+    const bool is_cut = all.sides[i].size() == 1;
+    const bool is_close =
+        is_cut && (edges.nodes.find_within(x, reach) >= 0 || kept.nodes.find_within(x, reach) >= 0);
+    if (!is_close) append(kept, i);
+  }
+  return kept;
 }
 
 /// Fills the inside of a face by an advancing front that starts at the nodes of its rims.
@@ -212,6 +238,7 @@ NodeSet<Dim> fill_boundary(const Domain<Dim>& domain, const SpacingFunction<Dim>
     fronts.reserve(pieces.size());
     for (const auto& piece : pieces) fronts.push_back(add_rims(set, piece, spacing));
     if constexpr (Dim == 3) {
+      set = without_crowded_rims(set, empty_set(pieces), spacing);
       for (std::size_t p = 0; p < pieces.size(); ++p) {
         fill_face(pieces[p], std::move(fronts[p]), spacing, generator, set);
       }
