@@ -17,7 +17,7 @@ struct BoundaryPiece {
       map;  ///< ends (1D edges, 2D rims) are shared with neighbours
 };
 
-/// A corner, curve or face of a domain that nodes can be concentrated at.
+/// A corner, curve or face of a domain's boundary that nodes can be concentrated at.
 template <int Dim>
 struct Feature {
   std::string name;                                   ///< letters, digits and '_'

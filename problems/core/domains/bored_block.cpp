@@ -12,8 +12,9 @@ namespace {
 
 using Point3 = Point<3>;
 
-/// Size of the spacings at a level, 1 for the coarsest cloud of the recipe.
-double scale_of(int level) { return 14.0 / (level - 1); }
+/// Factor of all spacings at a level, fitted so that level n gives n^3 nodes within 7 % from 15 to
+/// 48 (measured with `scattered`).
+double scale_of(int level) { return 22.8 / std::pow(level - 1, 1.133); }
 
 /// Distance from the segment between (0, radius, 0) and (0, width, 0).
 double ligament_distance(const Point3& x) {

@@ -32,7 +32,7 @@ class BoredBlock final : public Domain<3> {
   double distance(const Point<3>& x) const override;
   std::vector<BoundaryPiece<3>> pieces() const override;
   /// min(h0 + 0.05 d, 1.5 h0 + 0.05 (|x| - 2), 2.5 h0), h0 = 0.1 s(level), d the distance from the
-  /// ligament.
+  /// ligament; s makes level n mean about n^3 nodes.
   double spacing(const Point<3>& x, int level) const override;
   std::vector<Feature<3>> features() const override;
 };
