@@ -157,6 +157,7 @@ double Polygon::distance(const Point2& x) const {
 
 std::vector<BoundaryPiece<2>> Polygon::pieces() const {
   std::vector<BoundaryPiece<2>> result;
+  result.reserve(corners_.size());
   for (int edge = 0; edge < size(); ++edge) {
     result.push_back(
         {side_of_edge_[edge],
@@ -173,6 +174,7 @@ double Polygon::spacing(const Point2& x, int level) const {
 
 std::vector<Feature<2>> Polygon::features() const {
   std::vector<Feature<2>> result;
+  result.reserve(sides_.size() + corners_.size() + 1);
   for (int side = 0; side < static_cast<int>(sides_.size()); ++side) {
     result.push_back({sides_[side], [this, side](const Point2& x) {
                         double nearest = std::numeric_limits<double>::infinity();
