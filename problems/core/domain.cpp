@@ -70,6 +70,7 @@ std::vector<BoundaryPiece<Dim>> UnitCube<Dim>::pieces() const {
 template <int Dim>
 std::vector<Feature<Dim>> UnitCube<Dim>::features() const {
   std::vector<Feature<Dim>> result;
+  result.reserve(2 * Dim + 1);
   for (int side = 0; side < 2 * Dim; ++side) {
     result.push_back(
         {sides()[side], [side](const Point<Dim>& x) { return std::abs(x[side / 2] - side % 2); }});
