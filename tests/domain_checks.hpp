@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "problems/core/domains/polygon.hpp"
 #include "problems/core/voronoi.hpp"
 #include "tests/cloud_checks.hpp"
 
@@ -85,6 +86,18 @@ Feature<Dim> feature(const Domain<Dim>& domain, const std::string& name) {
   }
   ADD_FAILURE() << "no feature " << name;
   return {};
+}
+
+/// Cook's membrane, its spacing shrinking to `grade` at the corners.
+inline Polygon cook(double grade = 1) {
+  return Polygon({{0, 0}, {48, 44}, {48, 60}, {0, 44}}, {"bottom", "right", "top", "clamped"}, 48,
+                 {grade, 20});
+}
+
+/// A square of side 2 without its upper right quarter; all sides but the left share a name.
+inline Polygon notched() {
+  return Polygon({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}},
+                 {"free", "free", "free", "free", "free", "left"}, 2);
 }
 
 }  // namespace strongpoint

@@ -1,4 +1,5 @@
 // The data of every problem: exact solutions satisfy their equations, and agree with closed forms.
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -12,13 +13,20 @@
 namespace strongpoint {
 namespace {
 
+/// Whether a problem can be judged on a grid by an exact solution.
+bool is_judged_on_grids(const std::string& problem) {
+  // Known at single points only, or without a grid: see elastic_problems.cpp.
+  const auto elsewhere = {"field", "cook", "block_bore", "thick_sphere"};
+  return std::find(elsewhere.begin(), elsewhere.end(), problem) == elsewhere.end();
+}
+
 /// Errors at two levels with the second-order setting that suits traction boundaries too: a problem
 /// whose data do not belong together cannot converge.
 TEST(Problems, EverySteadyProblemConvergesAtSecondOrder) {
   int tried = 0;
   for (const ProblemEntry& entry : problems()) {
-    if (entry.info.name == "field") continue;
-    const bool is_3d = entry.info.name == "poisson_cube";
+    if (!is_judged_on_grids(entry.info.name)) continue;
+    const bool is_3d = make_problem(entry.info.name).made.index() == 2;
     const int coarse = is_3d ? 7 : 17;
     std::vector<double> errors;
     for (const int level : {coarse, 2 * coarse - 1}) {
@@ -34,7 +42,7 @@ TEST(Problems, EverySteadyProblemConvergesAtSecondOrder) {
     EXPECT_LT(errors[1], errors[0] / 3.3) << entry.info.name;
     ++tried;
   }
-  EXPECT_GE(tried, 4);
+  EXPECT_GE(tried, 6);
 }
 
 /// Kirsch's stresses by thesis (4.15), written in polar coordinates, against the traction data that
