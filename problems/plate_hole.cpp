@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "problems/core/domains/quarter_plate.hpp"
 #include "problems/core/exact_elasticity.hpp"
 
 namespace strongpoint {
@@ -11,89 +12,8 @@ namespace {
 
 using Point2 = Point<2>;
 
-enum class Map { log, edge };
-enum Side { hole, bottom, right, top, left };
-
-/// [0,1]^2 without the disc r < a. Unit coordinates are (angle over 90 degrees, position along the
-/// ray).
-class QuarterPlate final : public Domain<2> {
- public:
-  QuarterPlate(double a, Map map) : a_(a), map_(map) {}
-
-  const std::vector<std::string>& sides() const override {
-    static const std::vector<std::string> names{"hole", "bottom", "right", "top", "left"};
-    return names;
-  }
-  double measure() const override { return 1 - std::numbers::pi / 4 * a_ * a_; }
-  double reference_length() const override { return 1; }
-
-  Point2 map(const Point2& unit) const override {
-    const Point2 ray = direction(unit[0]);
-    if (map_ == Map::log) {
-      const double outer = 1 / ray.maxCoeff();
-      return a_ * std::pow(outer / a_, unit[1]) * ray;
-    }
-    const Point2 outer(std::min(1.0, 2 - 2 * unit[0]), std::min(1.0, 2 * unit[0]));
-    return (1 - unit[1]) * a_ * ray + unit[1] * outer;
-  }
-
-  std::vector<int> sides_at(const Point2& unit) const override {
-    std::vector<int> result;
-    if (unit[1] == 0) result.push_back(hole);
-    if (unit[0] == 0) result.push_back(bottom);
-    if (unit[1] == 1 && unit[0] <= 0.5 + half_tolerance) result.push_back(right);
-    if (unit[1] == 1 && unit[0] >= 0.5 - half_tolerance) result.push_back(top);
-    if (unit[0] == 1) result.push_back(left);
-    return result;
-  }
-
-  Point2 normal(int side, const Point2& x) const override {
-    switch (side) {
-      case hole:
-        return -x.normalized();
-      case bottom:
-        return {0, -1};
-      case right:
-        return {1, 0};
-      case top:
-        return {0, 1};
-      default:
-        return {-1, 0};
-    }
-  }
-
-  double distance(const Point2& x) const override {
-    return std::max({a_ - x.norm(), x[0] - 1, x[1] - 1, -x[0], -x[1]});
-  }
-
-  std::vector<BoundaryPiece<2>> pieces() const override {
-    using Parameter = BoundaryPiece<2>::Parameter;
-    const double a = a_;
-    return {{hole, [a](const Parameter& t) -> Point2 { return a * direction(t[0]); }},
-            {bottom, [a](const Parameter& t) { return Point2(a + (1 - a) * t[0], 0); }},
-            {right, [](const Parameter& t) { return Point2(1, t[0]); }},
-            {top, [](const Parameter& t) { return Point2(t[0], 1); }},
-            {left, [a](const Parameter& t) { return Point2(0, a + (1 - a) * t[0]); }}};
-  }
-
-  /// c a (r/a)^1.5 with c = (pi/2) / (n-1): n nodes on the arc.
-  double spacing(const Point2& x, int level) const override {
-    return std::numbers::pi / 2 / (level - 1) * a_ * std::pow(std::max(x.norm(), a_) / a_, 1.5);
-  }
-
- private:
-  static constexpr double half_tolerance = 1e-12;  // round-off of i / (n-1)
-  double a_;
-  Map map_;
-
-  /// Unit vector at t * 90 degrees, exact at both ends.
-  static Point2 direction(double t) {
-    if (t == 0) return {1, 0};
-    if (t == 1) return {0, 1};
-    const double angle = t * std::numbers::pi / 2;
-    return {std::cos(angle), std::sin(angle)};
-  }
-};
+using Map = QuarterPlate::Map;
+using enum QuarterPlate::Side;
 
 /// Displacements of an infinite plate with a hole under uniaxial tension along x, plane strain.
 /// Source: Kirsch 1898, Muskhelishvili 1953, with kappa = 3 - 4 nu.

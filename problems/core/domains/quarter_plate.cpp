@@ -1,0 +1,74 @@
+#include "problems/core/domains/quarter_plate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "problems/core/domains/quarter_annulus.hpp"
+
+namespace strongpoint {
+
+using Point2 = Point<2>;
+
+const std::vector<std::string>& QuarterPlate::sides() const {
+  static const std::vector<std::string> names{"hole", "bottom", "right", "top", "left"};
+  return names;
+}
+
+double QuarterPlate::measure() const { return 1 - std::numbers::pi / 4 * a_ * a_; }
+
+Point2 QuarterPlate::map(const Point2& unit) const {
+  const Point2 ray = quarter_turn(unit[0]);
+  if (map_ == Map::log) {
+    const double outer = 1 / ray.maxCoeff();
+    return a_ * std::pow(outer / a_, unit[1]) * ray;
+  }
+  const Point2 outer(std::min(1.0, 2 - 2 * unit[0]), std::min(1.0, 2 * unit[0]));
+  return (1 - unit[1]) * a_ * ray + unit[1] * outer;
+}
+
+std::vector<int> QuarterPlate::sides_at(const Point2& unit) const {
+  constexpr double half_tolerance = 1e-12;  // round-off of i / (n-1)
+  std::vector<int> result;
+  if (unit[1] == 0) result.push_back(hole);
+  if (unit[0] == 0) result.push_back(bottom);
+  if (unit[1] == 1 && unit[0] <= 0.5 + half_tolerance) result.push_back(right);
+  if (unit[1] == 1 && unit[0] >= 0.5 - half_tolerance) result.push_back(top);
+  if (unit[0] == 1) result.push_back(left);
+  return result;
+}
+
+Point2 QuarterPlate::normal(int side, const Point2& x) const {
+  switch (side) {
+    case hole:
+      return -x.normalized();
+    case bottom:
+      return {0, -1};
+    case right:
+      return {1, 0};
+    case top:
+      return {0, 1};
+    default:
+      return {-1, 0};
+  }
+}
+
+double QuarterPlate::distance(const Point2& x) const {
+  return std::max({a_ - x.norm(), x[0] - 1, x[1] - 1, -x[0], -x[1]});
+}
+
+std::vector<BoundaryPiece<2>> QuarterPlate::pieces() const {
+  using Parameter = BoundaryPiece<2>::Parameter;
+  const double a = a_;
+  return {{hole, [a](const Parameter& t) -> Point2 { return a * quarter_turn(t[0]); }},
+          {bottom, [a](const Parameter& t) { return Point2(a + (1 - a) * t[0], 0); }},
+          {right, [](const Parameter& t) { return Point2(1, t[0]); }},
+          {top, [](const Parameter& t) { return Point2(t[0], 1); }},
+          {left, [a](const Parameter& t) { return Point2(0, a + (1 - a) * t[0]); }}};
+}
+
+double QuarterPlate::spacing(const Point2& x, int level) const {
+  return std::numbers::pi / 2 / (level - 1) * a_ * std::pow(std::max(x.norm(), a_) / a_, 1.5);
+}
+
+}  // namespace strongpoint
