@@ -54,12 +54,12 @@ class Bvp1d final : public FluxProblem<1> {
   }
   std::vector<std::string> quantities() const override { return {"u_error", "u_max_error"}; }
   std::vector<double> measure(const Solution<1>& solution) const override {
-    Eigen::VectorXd exact(solution.cloud.size());
-    for (int i = 0; i < exact.size(); ++i) {
-      exact[i] = exact_derivatives<1>(Exact{}, solution.cloud.nodes.col(i), {value})[0];
-    }
+    const Eigen::VectorXd exact = exact_at(solution.cloud.nodes);
     const Eigen::VectorXd computed = solution.fields.row(0);
     return {relative_error(computed, exact), relative_max_error(computed, exact)};
+  }
+  std::vector<NodeArray> derived_fields(const Solution<1>& solution) const override {
+    return {error_array("u", solution.fields, exact_at(solution.cloud.nodes).transpose())};
   }
 
  private:
@@ -74,6 +74,14 @@ class Bvp1d final : public FluxProblem<1> {
                                EquationWriter<1>& write) {
     write.add(0, alpha, 1);
     write.equals(exact_at(alpha, x));
+  }
+  /// (N) exact values.
+  static Eigen::VectorXd exact_at(const Points<1>& nodes) {
+    Eigen::VectorXd exact(nodes.cols());
+    for (Eigen::Index i = 0; i < nodes.cols(); ++i) {
+      exact[i] = exact_derivatives<1>(Exact{}, nodes.col(i), {value})[0];
+    }
+    return exact;
   }
 };
 

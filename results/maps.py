@@ -1,10 +1,7 @@
 """Maps of nodes coloured by their numbers, from the .vtu files that a study writes with --vtk."""
-import base64
 import os
 import re
-import struct
 import textwrap
-import xml.etree.ElementTree as ElementTree
 
 import matplotlib
 
@@ -13,54 +10,15 @@ import matplotlib.pyplot as plt  # noqa: E402  (the backend must be chosen first
 import numpy as np  # noqa: E402
 from matplotlib.colors import LogNorm, Normalize, TwoSlopeNorm  # noqa: E402
 
-TYPES = {"Float64": "f8", "Int64": "i8", "UInt8": "u1"}
+from vtu import MapError, distances, read_vtu  # noqa: E402
+
 # Sizes without a sign, which are drawn on a logarithmic scale when they span this many decades.
 MAGNITUDES = re.compile(r"condition_|lebesgue_|residual$|.*error$")
 DECADES_FOR_LOG = 1.5
 TITLE_WIDTH = 80  # characters
-MOST_PAIRED = 20000  # nodes whose nearest neighbours are looked for one by one
-CHUNK = 500
 MOST_LEVELS = 12  # whole numbers that take no more values than this get a tick each
 LONG_SIDE = 5.0  # inches
 RC = {"font.size": 9, "axes.titlesize": 8, "axes.axisbelow": True}
-
-
-class MapError(Exception):
-    """What is wrong with the request, in one line."""
-
-
-def decoded(element, order):
-    """The numbers of an inline binary DataArray: their size in bytes, then themselves, in base64."""
-    raw = base64.b64decode(element.text or "", validate=False)
-    (size,) = struct.unpack_from(order + "Q", raw)
-    values = np.frombuffer(raw, order + TYPES[element.get("type")], offset=8)
-    if values.nbytes != size:
-        raise ValueError(f"array {element.get('Name')} holds {values.nbytes} bytes instead of {size}")
-    return values
-
-
-def read_vtu(path):
-    """Positions (N, 3), arrays by name and the title of a file written by a study."""
-    try:
-        root = ElementTree.parse(path).getroot()
-        if root.get("type") != "UnstructuredGrid" or root.get("header_type") != "UInt64":
-            raise ValueError("not an unstructured grid with 64-bit headers")
-        order = "<" if root.get("byte_order") == "LittleEndian" else ">"
-        positions = decoded(root.find(".//Points/DataArray"), order).reshape(-1, 3)
-        arrays = {e.get("Name"): decoded(e, order) for e in root.findall(".//PointData/DataArray")}
-        title = root.find(".//FieldData/Array[@Name='case']")
-        codes = [] if title is None else [int(code) for code in title.text.split()]
-        text = bytes(code for code in codes if code).decode(errors="replace")  # paths may hold any byte
-        for name, values in arrays.items():
-            if len(values) != len(positions):
-                raise ValueError(f"array {name} holds {len(values)} numbers for {len(positions)} nodes")
-    except OSError as error:
-        raise MapError(f"cannot read '{path}': {error.strerror}; give a file written with --vtk") from None
-    except (ElementTree.ParseError, ValueError, KeyError, AttributeError, struct.error) as error:
-        raise MapError(f"'{path}' is not a .vtu file written by a study: {error}") from None
-    if len(positions) == 0:
-        raise MapError(f"'{path}' holds no nodes")
-    return positions, arrays, text
 
 
 def scale_of(name, values):
@@ -79,20 +37,6 @@ def dimension_of(positions):
     return max(1, int(np.max(np.nonzero(extents > 0), initial=-1)) + 1)
 
 
-def distances_to_nearest(places):
-    """Distance of each node (2, N) to its nearest neighbour; of many nodes all get the mean share."""
-    count = places.shape[1]
-    if count > MOST_PAIRED:
-        return np.full(count, np.sqrt(np.prod(np.ptp(places, axis=1)) / count))
-    nearest = np.empty(count)
-    for begin in range(0, count, CHUNK):
-        part = slice(begin, min(begin + CHUNK, count))
-        squared = sum((row[part, None] - row[None, :])**2 for row in places)
-        squared[np.arange(part.stop - begin), np.arange(begin, part.stop)] = np.inf
-        nearest[part] = np.sqrt(squared.min(axis=1))
-    return nearest
-
-
 def marker_sizes(axes, places):
     """Areas of markers, in points squared, that nearly touch their neighbours' in a plane."""
     axes.update_datalim(places.T)
@@ -100,7 +44,7 @@ def marker_sizes(axes, places):
     axes.figure.draw_without_rendering()
     scale = np.ptp(axes.get_window_extent().intervalx) / np.ptp(axes.get_xlim())
     points = scale * 72 / axes.figure.dpi
-    return np.maximum(0.5, points * distances_to_nearest(places))**2
+    return np.maximum(0.5, points * distances(np.column_stack([places.T, np.zeros(places.shape[1])]), 1))**2
 
 
 def draw_coloured(figure, positions, values, name, dimension):
@@ -149,7 +93,8 @@ def draw_line(figure, positions, values, name):
 
 def draw(path, directory, chosen):
     """Draws one PNG for each array chosen (every array when none is) and prints their names."""
-    positions, arrays, title = read_vtu(path)
+    nodes = read_vtu(path)
+    positions, arrays, title = nodes.positions, nodes.arrays, nodes.title
     for name in chosen or []:
         if name not in arrays:
             raise MapError(f"--array {name}: not in '{path}'; known: {', '.join(arrays)}")

@@ -155,7 +155,7 @@ void write_map(const RunOptions& options, const CaseKey& key, const Discretisati
   const std::vector<std::string> names = figure_names(extra);
   std::vector<NodeArray> arrays;
   const auto add = [&](const std::string& name, const PerAnchor& figure) {
-    if (figure.reason.empty()) arrays.push_back({name, figure.values});
+    if (figure.reason.empty()) arrays.push_back(scalar_array(name, figure.values));
   };
   for (std::size_t f = 0; f < names.size(); ++f) add(names[f], figures.spread[f]);
   add("laplacian_centre", figures.centres);

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "problems/core/layout.hpp"
-#include "studies/support/vtk.hpp"
 
 namespace strongpoint {
 namespace {
@@ -140,26 +139,6 @@ TEST(StencilQuality, LimitOfAGrowingRuleIsFoundInsideAZonedOne) {
   EXPECT_EQ(boundary->most, 4e8);
   EXPECT_EQ(boundary->scaling, Scaling::row);
   EXPECT_EQ(boundary->norm, ConditionNorm::one);
-}
-
-TEST(Vtk, RefusesAnArrayThatDoesNotFitTheNodes) {
-  EXPECT_THROW(vtu_text<2>(Points<2>::Zero(2, 3), {{"u", {1, 2}}}, "title"), std::invalid_argument);
-}
-
-TEST(Vtk, FilesOfDifferentCasesHaveDifferentSafeNames) {
-  const VtkOutput output{"maps", "conditioning"};
-  const CaseKey key{"field",   "mfpm", "nearest[k=9]", "file[path=/a b/c.csv]", "collocation",
-                    "umfpack", 0};
-  const std::string path = vtu_path(output, key);
-  EXPECT_EQ(path.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_-./"), std::string::npos)
-      << path;
-  EXPECT_EQ(path.find('/'), path.rfind('/')) << path;
-  CaseKey other = key;
-  other.stencil = "nearest[k-9]";  // the same once made safe
-  EXPECT_NE(vtu_path(output, other), path);
-  other = key;
-  other.solver = "bicgstab";
-  EXPECT_NE(vtu_path(output, other), path);
 }
 
 }  // namespace

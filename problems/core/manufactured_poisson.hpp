@@ -59,11 +59,12 @@ class ManufacturedPoisson final : public FluxProblem<Dim> {
 
   std::vector<std::string> quantities() const override { return {"u_error", "u_max_error"}; }
   std::vector<double> measure(const Solution<Dim>& solution) const override {
-    Eigen::VectorXd exact(solution.cloud.size());
-    for (int i = 0; i < solution.cloud.size(); ++i)
-      exact[i] = value_at(solution.cloud.nodes.col(i));
+    const Eigen::VectorXd exact = exact_at(solution.cloud.nodes);
     const Eigen::VectorXd computed = solution.fields.row(0);
     return {relative_error(computed, exact), relative_max_error(computed, exact)};
+  }
+  std::vector<NodeArray> derived_fields(const Solution<Dim>& solution) const override {
+    return {error_array("u", solution.fields, exact_at(solution.cloud.nodes).transpose())};
   }
 
  private:
@@ -79,6 +80,12 @@ class ManufacturedPoisson final : public FluxProblem<Dim> {
   /// Dirichlet wins at shared edges and corners.
   bool is_neumann(std::span<const BoundaryMark<Dim>> marks) const {
     return right_ == RightSide::neumann && marks.size() == 1 && marks[0].side == right_side;
+  }
+  /// (N) exact values.
+  static Eigen::VectorXd exact_at(const Points<Dim>& nodes) {
+    Eigen::VectorXd exact(nodes.cols());
+    for (Eigen::Index i = 0; i < nodes.cols(); ++i) exact[i] = value_at(nodes.col(i));
+    return exact;
   }
   static double value_at(const Point<Dim>& x) {
     return exact_derivatives<Dim>(Exact{}, x, Derivatives<Dim>{MultiIndex<Dim>{}})[0];

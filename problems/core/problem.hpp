@@ -12,6 +12,7 @@
 #include "methods/core/weights.hpp"
 #include "problems/core/domain.hpp"
 #include "problems/core/equation.hpp"
+#include "problems/core/node_array.hpp"
 
 namespace strongpoint {
 
@@ -119,6 +120,10 @@ class SteadyProblem : public Problem<Dim> {
   virtual std::vector<std::string> quantities() const = 0;
   /// Judges a solution; one number per quantity, dimensionless unless the name says otherwise.
   virtual std::vector<double> measure(const Solution<Dim>& solution) const = 0;
+  /// What is worth looking at beside the fields, node by node: errors where the exact solution is
+  /// known, stresses and the like from the weights of `measured_derivatives`. Asked for only when
+  /// it is written.
+  virtual std::vector<NodeArray> derived_fields(const Solution<Dim>&) const { return {}; }
 };
 
 /// A smooth function on a domain, for judging derivative weights without solving anything.

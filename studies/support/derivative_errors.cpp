@@ -64,8 +64,7 @@ void write_errors(const RunOptions& options, const CaseKey& key, const Discretis
                   const Eigen::MatrixXd& errors) {
   std::vector<NodeArray> arrays;
   for (int d = 0; d < scene.derivatives.size(); ++d) {
-    const Eigen::VectorXd sizes = errors.row(d).cwiseAbs();
-    arrays.push_back({name_of<Dim>(scene.derivatives[d]) + "_error", {sizes.begin(), sizes.end()}});
+    arrays.push_back({name_of<Dim>(scene.derivatives[d]) + "_error", errors.row(d).cwiseAbs()});
   }
   arrays.push_back(zone_array(scene.sites.anchor_zone));
   write_vtu<Dim>(*options.vtk, key, scene.cloud.nodes, arrays);

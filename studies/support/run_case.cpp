@@ -9,6 +9,7 @@
 #include "problems/core/assembly.hpp"
 #include "problems/core/layout.hpp"
 #include "problems/core/voronoi.hpp"
+#include "studies/support/case_map.hpp"
 #include "studies/support/vtk.hpp"
 
 extern "C" {
@@ -59,27 +60,6 @@ Eigen::MatrixXd nodal_values(const Discretisation<Dim>& scene, const Eigen::Matr
     }
   }
   return result;
-}
-
-/// Writes what was computed at the nodes: the fields, the size of each stencil that the equations
-/// read, the zone (1 at the boundary).
-template <int Dim>
-void write_fields(const RunOptions& options, const CaseKey& key, const Discretisation<Dim>& scene,
-                  const std::vector<std::string>& names, const Eigen::MatrixXd& values) {
-  std::vector<NodeArray> arrays;
-  for (std::size_t f = 0; f < names.size(); ++f) {
-    const Eigen::VectorXd field = values.row(static_cast<Eigen::Index>(f));
-    arrays.push_back({names[f], {field.begin(), field.end()}});
-  }
-  NodeArray sizes{"stencil_size", {}};
-  std::vector<Zone> zones;
-  for (int i = 0; i < scene.cloud.size(); ++i) {  // points beyond are no nodes
-    sizes.values.push_back(static_cast<double>(scene.weights.nodes(i).size()));
-    zones.push_back(scene.cloud.is_boundary(i) ? Zone::boundary : Zone::interior);
-  }
-  arrays.push_back(std::move(sizes));
-  arrays.push_back(zone_array(zones));
-  write_vtu<Dim>(*options.vtk, key, scene.cloud.nodes, arrays);
 }
 
 /// Cell volumes of all nodes of the sites; a mirror image has that of its node.
@@ -200,8 +180,7 @@ CaseResult solve_steady(const SteadyProblem<Dim>& problem, const CaseKey& key,
   reset_peak_memory();
   const auto made = discretise(problem, key, options, times);
   const Discretisation<Dim>& scene = *made;
-  const std::vector<std::string> fields = problem.fields();
-  const int field_count = static_cast<int>(fields.size());
+  const int field_count = static_cast<int>(problem.fields().size());
   LinearSystem system = clock.time(times.assemble, [&] {
     return assemble(scene.equations(scene.derivatives), scene.weights, scene.unknowns, field_count);
   });
@@ -219,7 +198,11 @@ CaseResult solve_steady(const SteadyProblem<Dim>& problem, const CaseKey& key,
       Eigen::Map<const Eigen::MatrixXd>(linear.x.data(), field_count, scene.unknowns.count));
   const Solution<Dim> solution{scene.cloud, nodal_values(scene, parameters), parameters,
                                scene.weights, scene.derivatives};
-  if (options.vtk) write_fields<Dim>(options, key, scene, fields, solution.fields);
+  if (options.vtk) {
+    const Choices<Dim> choices(key);
+    write_vtu<Dim>(*options.vtk, key, scene.cloud.nodes,
+                   case_arrays<Dim>(problem, solution, scene, *choices.method));
+  }
   const std::vector<std::string> names = problem.quantities();
   const std::vector<double> values = problem.measure(solution);
   for (std::size_t q = 0; q < names.size(); ++q)

@@ -81,7 +81,12 @@ PerAnchor stencil_sizes(const Discretisation<Dim>& scene, const Method<Dim>& met
 template <int Dim>
 PerAnchor stencil_conditions(const Discretisation<Dim>& scene, const Method<Dim>& method,
                              Scaling scaling, ConditionNorm norm) {
-  const std::vector<int> anchors = scene.sites.wanted_anchors();
+  return stencil_conditions<Dim>(scene, method, scene.sites.wanted_anchors(), scaling, norm);
+}
+
+template <int Dim>
+PerAnchor stencil_conditions(const Discretisation<Dim>& scene, const Method<Dim>& method,
+                             const std::vector<int>& anchors, Scaling scaling, ConditionNorm norm) {
   Stencils stencils;
   for (int a : anchors) {
     stencils.push_back(scene.stencils.size() > 0 ? scene.stencils[a] : std::span<const int>{});
@@ -176,12 +181,14 @@ std::optional<ConditionLimit> condition_limit(const std::string& stencil, Zone z
                                     {{"two", ConditionNorm::two}, {"one", ConditionNorm::one}})};
 }
 
-#define STRONGPOINT_INSTANTIATE(Dim) /* the same list for each dimension */                  \
-  template PerAnchor stencil_sizes<Dim>(const Discretisation<Dim>&, const Method<Dim>&);     \
-  template PerAnchor stencil_conditions<Dim>(const Discretisation<Dim>&, const Method<Dim>&, \
-                                             Scaling, ConditionNorm);                        \
-  template PerAnchor lebesgue_numbers<Dim>(const Discretisation<Dim>&, int);                 \
-  template PerAnchor laplacian_centres<Dim>(const Discretisation<Dim>&);                     \
+#define STRONGPOINT_INSTANTIATE(Dim) /* the same list for each dimension */                    \
+  template PerAnchor stencil_sizes<Dim>(const Discretisation<Dim>&, const Method<Dim>&);       \
+  template PerAnchor stencil_conditions<Dim>(const Discretisation<Dim>&, const Method<Dim>&,   \
+                                             Scaling, ConditionNorm);                          \
+  template PerAnchor stencil_conditions<Dim>(const Discretisation<Dim>&, const Method<Dim>&,   \
+                                             const std::vector<int>&, Scaling, ConditionNorm); \
+  template PerAnchor lebesgue_numbers<Dim>(const Discretisation<Dim>&, int);                   \
+  template PerAnchor laplacian_centres<Dim>(const Discretisation<Dim>&);                       \
   template PerAnchor reproduction_residuals<Dim>(const Discretisation<Dim>&, int)
 STRONGPOINT_INSTANTIATE(1);
 STRONGPOINT_INSTANTIATE(2);

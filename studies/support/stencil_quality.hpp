@@ -34,6 +34,11 @@ template <int Dim>
 PerAnchor stencil_conditions(const Discretisation<Dim>& scene, const Method<Dim>& method,
                              Scaling scaling, ConditionNorm norm);
 
+/// The same of some wanted anchors alone, NaN at the others.
+template <int Dim>
+PerAnchor stencil_conditions(const Discretisation<Dim>& scene, const Method<Dim>& method,
+                             const std::vector<int>& anchors, Scaling scaling, ConditionNorm norm);
+
 /// A Lebesgue number of each anchor's weights: h^q sum_j |w_j|, the largest over the derivatives
 /// of order q in the scene, h being the spacing of the cloud (one for all stencils, so that a
 /// graded cloud has large numbers where it is fine). Dimensionless; it bounds by how much errors of

@@ -1,12 +1,20 @@
 #include "studies/support/vtk.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cctype>
 #include <cstdint>
-#include <cstring>
 #include <stdexcept>
 #include <string_view>
+#include <vtkCellArray.h>
+#include <vtkCellType.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkStringArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridWriter.h>
 
 #include <fmt/format.h>
 
@@ -15,55 +23,41 @@
 namespace strongpoint {
 namespace {
 
-constexpr std::uint8_t vertex_cell = 1;  // VTK_VERTEX
 /// Longest part of a file name that one spec may take; nested rules are longer.
 constexpr std::size_t longest_part = 60;
 
-/// Base64 of some bytes. Source: RFC 4648, section 4.
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view digits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t group = 0;
-    for (std::size_t j = 0; j < 3; ++j) {
-      group = group << 8U | (j < count ? static_cast<unsigned char>(bytes[i + j]) : 0U);
-    }
-    for (std::size_t j = 0; j < 4; ++j) {
-      text += j <= count ? digits[group >> (18 - 6 * j) & 63U] : '=';
-    }
-  }
-  return text;
+/// Numbers with a column per node as VTK keeps them.
+vtkNew<vtkDoubleArray> vtk_array(const std::string& name, const Eigen::MatrixXd& values) {
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name.c_str());
+  array->SetNumberOfComponents(static_cast<int>(values.rows()));
+  array->SetNumberOfTuples(values.cols());
+  std::copy_n(values.data(), values.size(), array->GetPointer(0));
+  return array;
 }
 
-/// The bytes of an array behind their number, as VTK's inline binary format wants them.
-template <class T>
-std::string encoded(const std::vector<T>& values) {
-  const std::uint64_t size = values.size() * sizeof(T);
-  std::string bytes(sizeof(size) + size, '\0');
-  std::memcpy(bytes.data(), &size, sizeof(size));
-  if (size > 0) std::memcpy(bytes.data() + sizeof(size), values.data(), size);
-  return base64(bytes);
+/// The nodes, each with a vertex cell.
+template <int Dim>
+void set_nodes(vtkUnstructuredGrid& grid, const Points<Dim>& nodes) {
+  Eigen::MatrixXd positions = Eigen::MatrixXd::Zero(3, nodes.cols());  // no coordinate may lack
+  positions.topRows<Dim>() = nodes;
+  vtkNew<vtkPoints> points;
+  points->SetData(vtk_array("positions", positions));
+  grid.SetPoints(points);
+  vtkNew<vtkCellArray> cells;
+  for (vtkIdType i = 0; i < nodes.cols(); ++i) cells->InsertNextCell(1, &i);
+  grid.SetCells(VTK_VERTEX, cells);
 }
 
-template <class T>
-std::string data_array(const char* type, const std::string& name, int components,
-                       const std::vector<T>& values) {
-  return fmt::format(
-      "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">\n{}\n"
-      "</DataArray>\n",
-      type, name, components, encoded(values));
-}
-
-/// A text as VTK stores it: the numbers of its characters, ended by zero.
-std::string text_array(const char* name, const std::string& text) {
-  std::string codes;
-  for (const char c : text) codes += fmt::format("{} ", static_cast<unsigned char>(c));
-  return fmt::format(
-      "<Array type=\"String\" Name=\"{}\" NumberOfTuples=\"1\" format=\"ascii\">\n{}0\n</Array>\n",
-      name, codes);
+/// The text of a file that holds a grid.
+std::string text_of(vtkUnstructuredGrid& grid) {
+  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  writer->SetInputData(&grid);
+  writer->SetDataModeToBinary();
+  writer->SetHeaderTypeToUInt64();
+  writer->WriteToOutputStringOn();
+  if (writer->Write() != 1) throw WriteError("VTK cannot write the nodes as XML");
+  return writer->GetOutputString();
 }
 
 /// Letters, digits, dots and underscores of a text, runs of anything else as one hyphen.
@@ -96,45 +90,36 @@ std::string title_of(const CaseKey& key) {
 
 }  // namespace
 
+NodeArray scalar_array(const std::string& name, std::span<const double> values) {
+  return {name, Eigen::Map<const Eigen::RowVectorXd>(values.data(),
+                                                     static_cast<Eigen::Index>(values.size()))};
+}
+
 NodeArray zone_array(const std::vector<Zone>& zones) {
-  NodeArray array{"zone", {}};
-  for (const Zone zone : zones) array.values.push_back(zone == Zone::boundary ? 1 : 0);
+  NodeArray array{"zone", Eigen::MatrixXd(1, zones.size())};
+  for (std::size_t i = 0; i < zones.size(); ++i) {
+    array.values(0, static_cast<Eigen::Index>(i)) = zones[i] == Zone::boundary ? 1 : 0;
+  }
   return array;
 }
 
 template <int Dim>
 std::string vtu_text(const Points<Dim>& nodes, const std::vector<NodeArray>& arrays,
                      const std::string& title) {
-  const auto count = static_cast<std::size_t>(nodes.cols());
-  std::vector<double> positions(3 * count);  // missing coordinates are zero
-  std::vector<std::int64_t> connectivity(count), offsets(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    for (int c = 0; c < Dim; ++c) {
-      positions[3 * i + c] = nodes(c, static_cast<Eigen::Index>(i));
-    }
-    connectivity[i] = static_cast<std::int64_t>(i);
-    offsets[i] = static_cast<std::int64_t>(i) + 1;
-  }
-  std::string data;
+  vtkNew<vtkUnstructuredGrid> grid;
+  set_nodes<Dim>(*grid.Get(), nodes);
   for (const NodeArray& array : arrays) {
-    if (array.values.size() != count) {
-      throw std::invalid_argument(fmt::format("array {} holds {} numbers for {} nodes", array.name,
-                                              array.values.size(), count));
+    if (array.values.cols() != nodes.cols()) {
+      throw std::invalid_argument(fmt::format("array {} holds {} columns for {} nodes", array.name,
+                                              array.values.cols(), nodes.cols()));
     }
-    data += data_array("Float64", array.name, 1, array.values);
+    grid->GetPointData()->AddArray(vtk_array(array.name, array.values));
   }
-  return fmt::format(
-      "<?xml version=\"1.0\"?>\n"
-      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" "
-      "header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n{}</FieldData>\n"
-      "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<PointData>\n{}</PointData>\n"
-      "<Points>\n{}</Points>\n<Cells>\n{}{}{}</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
-      std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian",
-      text_array("case", title), count, count, data,
-      data_array("Float64", "positions", 3, positions),
-      data_array("Int64", "connectivity", 1, connectivity),
-      data_array("Int64", "offsets", 1, offsets),
-      data_array("UInt8", "types", 1, std::vector<std::uint8_t>(count, vertex_cell)));
+  vtkNew<vtkStringArray> text;
+  text->SetName("case");
+  text->InsertNextValue(title);
+  grid->GetFieldData()->AddArray(text);
+  return text_of(*grid.Get());
 }
 
 std::string vtu_path(const VtkOutput& output, const CaseKey& key) {
