@@ -75,6 +75,11 @@ class PlateHole final : public ElasticProblem<2> {
             relative_error(computed.row(0), exact.row(0)), relative_error(computed, exact)};
   }
 
+ protected:
+  std::optional<ElasticNodes> exact_at_nodes(const PointCloud<2>& cloud) const override {
+    return exact_.at_nodes(cloud);
+  }
+
  private:
   static constexpr double young = 1e5;    // thesis (4.16)
   static constexpr double tension = 100;  // thesis (4.16)

@@ -42,6 +42,24 @@ class Steady(MapTest):
                 # The table divides by the largest exact value, which differs by the error.
                 self.assertAlmostEqual(most / self.value("u_max_error"), 1, delta=2 * most)
 
+    def test_stresses_of_a_plate_are_those_of_the_table(self):
+        file = self.only("--problem", "plate_hole", "--method", "lsfdm", "--levels", "21")
+        names = ["sigma_xx", "sigma_yy", "tau_xy", "von_mises"]
+        self.assertEqual(list(file.arrays), ["u", "v", "displacement", *names, "u_error", "v_error",
+                                             *(n + "_error" for n in names), "stencil_size", "condition_two", "zone"])
+        x, y = file.positions[:, 0], file.positions[:, 1]
+        # Kirsch's stress along the tension of 100, the hole's radius being 0.2.
+        q, angle = (0.2 / np.hypot(x, y))**2, np.arctan2(y, x)
+        exact = 100 * (1 - q * (1.5 * np.cos(2 * angle) + np.cos(4 * angle)) + 1.5 * q**2 * np.cos(4 * angle))
+        error = file.arrays["sigma_xx"] - exact
+        np.testing.assert_allclose(file.arrays["sigma_xx_error"], np.abs(error), atol=1e-10)
+        self.assertAlmostEqual(np.linalg.norm(error) / np.linalg.norm(exact), self.value("stress_xx_error"), delta=1e-12)
+        sides = np.linalg.norm([file.arrays["u_error"], file.arrays["v_error"]])
+        self.assertAlmostEqual(sides / np.linalg.norm(file.arrays["displacement"]), self.value("displacement_error"),
+                               delta=1e-3)  # the table divides by the exact one
+        np.testing.assert_array_equal(file.arrays["displacement"],
+                                      np.column_stack([file.arrays["u"], file.arrays["v"], 0 * x]))
+
     def test_nodes_without_a_stencil_have_no_number_of_one(self):
         file = self.only("--problem", "poisson_square[bc=mixed]", "--method", "mfpm", "--stencil",
                          "nearest[k=9,ties=cut]", "--levels", "9")

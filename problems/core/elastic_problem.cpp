@@ -223,6 +223,34 @@ Eigen::MatrixXd ElasticProblem<Dim>::nodal_stresses(const Solution<Dim>& solutio
 }
 
 template <int Dim>
+void ElasticProblem<Dim>::add_pressure(const std::vector<Lame>& materials,
+                                       ElasticNodes& exact) const {
+  if (!is_mixed()) return;
+  exact.fields.conservativeResize(Dim + 1, Eigen::NoChange);
+  for (Eigen::Index n = 0; n < exact.fields.cols(); ++n) {
+    exact.fields(Dim, n) =
+        -volumetric_share<Dim>(materials[n]) * exact.stresses.col(n).template head<Dim>().sum();
+  }
+}
+
+template <int Dim>
+std::vector<NodeArray> ElasticProblem<Dim>::derived_fields(const Solution<Dim>& solution) const {
+  std::vector<Lame> materials(solution.cloud.size());
+  for (int n = 0; n < solution.cloud.size(); ++n) {
+    materials[n] = material({solution.cloud.nodes.col(n), solution.cloud.patch_of(n)});
+  }
+  const Derivatives<Dim> measured = this->measured_derivatives();
+  const Derivatives<Dim> first = first_derivatives();
+  const bool has_stresses =
+      std::all_of(first.begin(), first.end(), [&](const auto& d) { return measured.contains(d); });
+  ElasticNodes computed{solution.fields, {}};
+  if (has_stresses) computed.stresses = nodal_stresses(solution);
+  std::optional<ElasticNodes> exact = exact_at_nodes(solution.cloud);
+  if (exact) add_pressure(materials, *exact);
+  return elastic_arrays<Dim>(fields(), materials, computed, exact);
+}
+
+template <int Dim>
 std::vector<std::string> stress_names() {
   if constexpr (Dim == 2) return {"xx", "yy", "xy"};
   return {"xx", "yy", "zz", "xy", "xz", "yz"};

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "problems/core/elastic_fields.hpp"
 #include "problems/core/elasticity.hpp"
 #include "problems/core/flux_problem.hpp"
 
@@ -65,11 +67,15 @@ class ElasticProblem : public FluxProblem<Dim> {
   double source(int field, const Place<Dim>& place) const override {
     return field < Dim ? -body_force(place)[field] : 0;
   }
+  /// `elastic_arrays`; stresses where `measured_derivatives` has all first derivatives.
+  std::vector<NodeArray> derived_fields(const Solution<Dim>& solution) const override;
 
  protected:
   /// Stress components at the nodes, (Dim (Dim + 1) / 2, N), in the order of `stress_names`, from
   /// the solution's weights. Throws CaseError when a node has none.
   Eigen::MatrixXd nodal_stresses(const Solution<Dim>& solution) const;
+  /// Exact displacements and stresses at the nodes, where they are known.
+  virtual std::optional<ElasticNodes> exact_at_nodes(const PointCloud<Dim>&) const { return {}; }
   static Derivatives<Dim> first_derivatives() { return Derivatives<Dim>::between_orders(1, 1); }
 
  private:
@@ -78,6 +84,8 @@ class ElasticProblem : public FluxProblem<Dim> {
   /// Adds m . sigma n.
   void add_traction_along(const Place<Dim>& place, const Point<Dim>& m, const Point<Dim>& n,
                           EquationWriter<Dim>& write) const;
+  /// Adds the pressure of the mixed form to what is exact.
+  void add_pressure(const std::vector<Lame>& materials, ElasticNodes& exact) const;
   void write_constraint(const Place<Dim>& place, EquationWriter<Dim>& write) const;
   /// The tractions of some faces along m, added up, equal the given ones.
   void write_traction(const Node<Dim>& node, std::span<const BoundaryMark<Dim>> faces,

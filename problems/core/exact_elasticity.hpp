@@ -44,9 +44,13 @@ class ExactElasticity {
   }
   /// Relative 2-norm of the error of the displacements over all nodes.
   double displacement_error(const Solution<Dim>& solution) const {
-    Points<Dim> exact(Dim, solution.cloud.size());
-    for (int i = 0; i < exact.cols(); ++i) exact.col(i) = displacement(solution.cloud.nodes.col(i));
-    return relative_error(solution.fields.topRows(Dim), exact);
+    return relative_error(solution.fields.topRows(Dim), displacements(solution.cloud));
+  }
+  /// (Dim, N) exact displacements at the nodes.
+  Points<Dim> displacements(const PointCloud<Dim>& cloud) const {
+    Points<Dim> exact(Dim, cloud.size());
+    for (int i = 0; i < exact.cols(); ++i) exact.col(i) = displacement(cloud.nodes.col(i));
+    return exact;
   }
   /// Exact stress components at the nodes, in the order of `stress_names`.
   Eigen::MatrixXd stresses(const PointCloud<Dim>& cloud) const {
@@ -55,6 +59,10 @@ class ExactElasticity {
       exact.col(i) = tensor_components<Dim>(stress_at(cloud.nodes.col(i)));
     }
     return exact;
+  }
+  /// Both at the nodes.
+  ElasticNodes at_nodes(const PointCloud<Dim>& cloud) const {
+    return {displacements(cloud), stresses(cloud)};
   }
 
  private:
