@@ -41,6 +41,7 @@ TestScene<Dim> make_scene(const std::string& method, const std::string& cloud, i
   scene.method = make_method<Dim>(method).made;
   scene.sites = sites_at_nodes<Dim>(scene.cloud.nodes);
   scene.sites.block = scene.cloud.block;
+  scene.sites.sees = [](const Point<Dim>&, const Point<Dim>&) { return true; };  // it is convex
   const auto search = make_search<Dim>("auto", scene.sites.nodes);
   if (scene.method->needs().volumes) {
     scene.sites.volumes = voronoi_volumes<Dim>(scene.cloud, domain, *search);

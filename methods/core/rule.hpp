@@ -17,6 +17,8 @@ class StencilRule {
   StencilRule& operator=(const StencilRule&) = delete;
   virtual ~StencilRule() = default;
 
+  /// What has to be prepared beside the nodes.
+  virtual Needs needs() const { return {}; }
   /// One stencil for each anchor listed, sorted by (distance, node id). Throws SkipCase when the
   /// sites cannot serve the rule (an index block on a cloud without structure).
   virtual Stencils select(const Sites<Dim>& sites, std::span<const int> anchors,

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -13,19 +14,22 @@ namespace strongpoint {
 /// Where an anchor lies; what is right inside is often wrong at a boundary.
 enum class Zone : std::uint8_t { interior, boundary };
 
-/// What a method wants prepared beside the nodes; whatever is not asked for is not made.
+/// What a method or a stencil rule wants prepared beside the nodes; whatever is not asked for is
+/// not made.
 struct Needs {
   bool volumes = false;  ///< measure of each node's cell
   bool spacing = false;  ///< local spacing of the nodes around each anchor
   bool block = false;    ///< an index block: the cloud has to be structured
   bool centre = false;   ///< a node at every anchor, which then is in its stencil
+  bool sight = false;    ///< which places see each other: segments that stay in the domain
 
-  /// What either of two methods wants.
+  /// What either of two wants.
   friend Needs operator|(const Needs& a, const Needs& b) {
     return {.volumes = a.volumes || b.volumes,
             .spacing = a.spacing || b.spacing,
             .block = a.block || b.block,
-            .centre = a.centre || b.centre};
+            .centre = a.centre || b.centre,
+            .sight = a.sight || b.sight};
   }
 };
 
@@ -34,6 +38,10 @@ template <int Dim>
 struct IndexBlock {
   std::array<int, Dim> shape;
 };
+
+/// Whether the segment between two places stays in the domain; may be asked from several threads.
+template <int Dim>
+using Sight = std::function<bool(const Point<Dim>&, const Point<Dim>&)>;
 
 /// Everything a method may look at: where unknowns live, where stencils are chosen, where
 /// derivatives are evaluated. Made by a form from the cloud and the problem.
@@ -49,6 +57,7 @@ struct Sites {
   Eigen::VectorXd volumes;           ///< (N) cell measures, empty unless needed
   Eigen::VectorXd spacing;           ///< (A) local node spacing, empty unless needed
   std::optional<IndexBlock<Dim>> block;  ///< structured clouds only
+  Sight<Dim> sees;                       ///< empty unless needed
 
   int node_count() const { return static_cast<int>(nodes.cols()); }
   int anchor_count() const { return static_cast<int>(anchors.cols()); }

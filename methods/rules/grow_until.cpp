@@ -22,6 +22,8 @@ class GrowUntil final : public StencilRule<Dim> {
   GrowUntil(Limits limits, std::unique_ptr<StencilRule<Dim>> base)
       : limits_(limits), base_(std::move(base)) {}
 
+  Needs needs() const override { return base_->needs(); }
+
   Stencils select(const Sites<Dim>& sites, std::span<const int> anchors, const Method<Dim>& method,
                   const NeighbourSearch<Dim>& search) const override {
     std::vector<std::vector<int>> chosen;

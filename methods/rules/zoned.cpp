@@ -9,6 +9,8 @@ class ZonedRule final : public StencilRule<Dim> {
   ZonedRule(std::unique_ptr<StencilRule<Dim>> interior, std::unique_ptr<StencilRule<Dim>> boundary)
       : interior_(std::move(interior)), boundary_(std::move(boundary)) {}
 
+  Needs needs() const override { return interior_->needs() | boundary_->needs(); }
+
   Stencils select(const Sites<Dim>& sites, std::span<const int> anchors, const Method<Dim>& method,
                   const NeighbourSearch<Dim>& search) const override {
     std::vector<int> inside;

@@ -8,6 +8,7 @@
 #include "methods/core/spacing.hpp"
 #include "problems/core/assembly.hpp"
 #include "problems/core/layout.hpp"
+#include "problems/core/visibility.hpp"
 #include "problems/core/voronoi.hpp"
 #include "studies/support/case_map.hpp"
 #include "studies/support/vtk.hpp"
@@ -103,24 +104,26 @@ void choose_stencils(Discretisation<Dim>& scene, const Domain<Dim>& domain,
   if (const std::string why = choices.method->unsupported(scene.derivatives); !why.empty()) {
     throw SkipCase(why);
   }
+  const Needs needs = choices.method->needs() | (choices.rule ? choices.rule->needs() : Needs{});
   if (choices.method->needs().block && !scene.sites.block) {
     throw SkipCase("the method needs a structured cloud (grid, perturbed, graded)");
   }
   const auto engine = clock.time(
       times.neighbours, [&] { return make_search<Dim>(options.neighbours, scene.sites.nodes); });
-  if (choices.method->needs().volumes) {
+  if (needs.volumes) {
     double seconds = 0;
     scene.sites.volumes =
         clock.time(seconds, [&] { return cell_volumes<Dim>(scene, domain, options); });
     times.voronoi += seconds;
     times.prepare += seconds;
   }
-  if (choices.method->needs().spacing) {
+  if (needs.spacing) {
     scene.sites.spacing = clock.time(times.neighbours, [&] {
       return local_spacing<Dim>(scene.sites.anchors, scene.sites.nodes, *engine);
     });
   }
   if (choices.rule) {
+    if (needs.sight) scene.sites.sees = sight_in<Dim>(domain);
     double searching = 0;
     double selecting = 0;
     const TimedSearch<Dim> search(*engine, clock, searching);
@@ -129,6 +132,7 @@ void choose_stencils(Discretisation<Dim>& scene, const Domain<Dim>& domain,
     });
     times.neighbours += searching;
     times.stencils += selecting - searching;
+    scene.sites.sees = nullptr;  // the scene may outlive the domain
   }
 }
 

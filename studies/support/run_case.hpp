@@ -37,8 +37,9 @@ struct Choices {
         rule(key.stencil == every_node ? nullptr : make_rule<Dim>(key.stencil).made) {}
 };
 
-/// Chooses stencils on sites already made, adding to these only what the method needs; the time of
-/// each stage is added to `times`. Throws SkipCase when the method cannot give the derivatives.
+/// Chooses stencils on sites already made, adding to these only what the method and the rule need;
+/// the time of each stage is added to `times`. Throws SkipCase when the method cannot give the
+/// derivatives.
 template <int Dim>
 void choose_stencils(Discretisation<Dim>& scene, const Domain<Dim>& domain,
                      const Choices<Dim>& choices, const RunOptions& options,
