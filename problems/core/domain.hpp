@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,8 @@ class Domain {
   /// Corners, curves and faces by name, for layouts that concentrate nodes; none unless the domain
   /// names some.
   virtual std::vector<Feature<Dim>> features() const { return {}; }
+  /// The mesh file that the domain was made from, whose nodes serve as a cloud.
+  virtual std::optional<std::string> own_mesh() const { return std::nullopt; }
   /// Boundary marks, with normals, of the sides given.
   std::vector<BoundaryMark<Dim>> marks(const std::vector<int>& sides, const Point<Dim>& x) const;
 };

@@ -1,17 +1,13 @@
 #include "problems/core/mesh_file.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <map>
 #include <mutex>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <gmsh.h>
 
 #include "methods/core/error.hpp"
-#include "problems/core/mesh_topology.hpp"
 
 namespace strongpoint {
 namespace {
@@ -48,9 +44,20 @@ void visit_elements(int dim, int entity, Visit visit) {
   }
 }
 
-/// Everything in an open Gmsh model that a cloud of a dimension needs.
+/// The highest dimension of the elements in an open Gmsh model.
+int highest_dimension() {
+  for (int dim = 3; dim > 1; --dim) {
+    std::vector<int> types;
+    gmsh::model::mesh::getElementTypes(types, dim);
+    if (!types.empty()) return dim;
+  }
+  return 1;
+}
+
+/// Everything in an open Gmsh model that is needed of a dimension.
 Mesh read_model(int dim) {
   Mesh mesh;
+  mesh.dimension = dim;
   Tags tags;
   std::vector<double> coordinates, parametric;
   gmsh::model::mesh::getNodes(tags, coordinates, parametric, -1, -1, false, false);
@@ -74,11 +81,17 @@ Mesh read_model(int dim) {
     }
     mesh.groups.push_back(std::move(group));
   }
+  if (mesh.elements.empty()) {
+    fail(fmt::format(
+        "has no elements of dimension {}; mesh the geometry with gmsh -{} and put it into "
+        "a physical group",
+        dim, dim));
+  }
   return mesh;
 }
 
 /// Opens a mesh in Gmsh and reads it, translating Gmsh's exceptions.
-Mesh load(const std::string& path, int dim) {
+Mesh load(const std::string& path, std::optional<int> dimension) {
   std::ifstream file(path);
   if (!file) fail("cannot be opened; check the path and the permissions");
   // Gmsh runs any other file as a script.
@@ -91,7 +104,7 @@ Mesh load(const std::string& path, int dim) {
   const GmshSession session;
   try {
     gmsh::open(path);
-    return read_model(dim);
+    return read_model(dimension ? *dimension : highest_dimension());
   } catch (const CaseError&) {
     throw;
   } catch (const std::exception& error) {
@@ -107,66 +120,27 @@ Mesh load(const std::string& path, int dim) {
 template <int Dim>
 using NodeAreas = std::map<Tag, std::map<int, Point<Dim>>>;
 
-/// Gives each facet in a group that group's side, and its nodes their share of the normal.
+/// The share that each node has in the boundary elements of each side.
 template <int Dim>
-NodeAreas<Dim> assign_sides(const Domain<Dim>& domain, const Mesh& mesh, Topology<Dim>& topology) {
+NodeAreas<Dim> node_areas(const Topology<Dim>& topology) {
   NodeAreas<Dim> areas;
-  const std::vector<std::string>& sides = domain.sides();
-  std::vector<std::string> names;
-  for (const BoundaryGroup& group : mesh.groups) names.push_back(group.name);
-  for (const BoundaryGroup& group : mesh.groups) {
-    const auto side = std::find(sides.begin(), sides.end(), group.name);
-    if (side == sides.end()) {
-      fail(
-          fmt::format("physical group '{}' is not a side of the domain; known sides: {}; groups in "
-                      "the file: {}",
-                      group.name, fmt::join(sides, ", "), fmt::join(names, ", ")));
-    }
-    for (Tags tags : group.elements) {
-      std::sort(tags.begin(), tags.end());
-      const auto facet = topology.facets.find(tags);
-      if (facet == topology.facets.end() || facet->second.elements != 1) {
-        fail(fmt::format(
-            "an element of physical group '{}' (nodes {}) is not on the boundary of the "
-            "mesh; keep only boundary entities in the group",
-            group.name, fmt::join(tags, ", ")));
-      }
-      facet->second.has_side = true;
-      for (Tag tag : tags) {
-        areas[tag]
-            .try_emplace(static_cast<int>(side - sides.begin()), Point<Dim>::Zero())
-            .first->second += facet->second.area;
-      }
-    }
-  }
   for (const auto& [tags, facet] : topology.facets) {
-    if (facet.elements != 1 || facet.has_side) continue;
-    fail(fmt::format(
-        "boundary node {} at {} (element with nodes {}) has no side; put its boundary "
-        "into a physical group named after one of: {}; groups in the file: {}",
-        tags[0], format_point(topology.nodes.at(tags[0])), fmt::join(tags, ", "),
-        fmt::join(sides, ", "), names.empty() ? "none" : fmt::to_string(fmt::join(names, ", "))));
+    if (facet.side < 0) continue;
+    for (Tag tag : tags) {
+      areas[tag].try_emplace(facet.side, Point<Dim>::Zero()).first->second += facet.area;
+    }
   }
   return areas;
 }
 
 template <int Dim>
 PointCloud<Dim> cloud_of(const Domain<Dim>& domain, const Mesh& mesh) {
-  if (mesh.elements.empty()) {
-    fail(fmt::format(
-        "has no elements of dimension {}; mesh the geometry with gmsh -{} and put it into "
-        "a physical group",
-        Dim, Dim));
-  }
   Topology<Dim> topology = topology_of<Dim>(mesh);
-  const NodeAreas<Dim> areas = assign_sides(domain, mesh, topology);
+  assign_sides(domain.sides(), mesh, topology);
+  check_flat(mesh, topology, domain.reference_length());
+  const NodeAreas<Dim> areas = node_areas(topology);
   CloudBuilder<Dim> builder;
   for (const auto& [tag, x] : topology.nodes) {
-    for (int c = Dim; c < 3; ++c) {
-      if (std::abs(mesh.nodes.at(tag)[c]) <= 1e-9 * std::abs(domain.reference_length())) continue;
-      fail(fmt::format("node {} has {} = {}; a {}D mesh must have it zero", tag, "xyz"[c],
-                       mesh.nodes.at(tag)[c], Dim));
-    }
     std::vector<BoundaryMark<Dim>> marks;
     const auto own = areas.find(tag);
     if (own != areas.end()) {
@@ -186,6 +160,14 @@ PointCloud<Dim> cloud_of(const Domain<Dim>& domain, const Mesh& mesh) {
 }
 
 }  // namespace
+
+Mesh load_mesh(const std::string& path, std::optional<int> dimension) {
+  try {
+    return load(path, dimension);
+  } catch (const CaseError& error) {
+    throw CaseError(fmt::format("{}: {}", path, error.what()));
+  }
+}
 
 template <int Dim>
 PointCloud<Dim> read_mesh(const Domain<Dim>& domain, const std::string& path) {

@@ -1,10 +1,17 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "problems/core/domain.hpp"
+#include "problems/core/mesh_topology.hpp"
 
 namespace strongpoint {
+
+/// Reads the elements of a Gmsh mesh (.msh) of a dimension, the highest that it holds unless given,
+/// and its physical groups of one dimension less. Throws CaseError, beginning with the path, when
+/// the file cannot be read or has no such elements. Calls from several threads wait for each other.
+Mesh load_mesh(const std::string& path, std::optional<int> dimension = std::nullopt);
 
 /// Reads the nodes of a first-order Gmsh mesh (.msh) in ascending order of their tags; nodes that
 /// no element of dimension Dim uses are left out. Physical groups of dimension Dim-1, named after

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "methods/core/error.hpp"
 #include "methods/core/points.hpp"
@@ -31,8 +33,9 @@ struct VolumeElement {
   Tags nodes;
 };
 
-/// What a cloud is made from.
+/// What a cloud or a domain is made from.
 struct Mesh {
+  int dimension = 0;                           ///< of the elements
   std::map<Tag, std::array<double, 3>> nodes;  ///< every node of the file
   std::vector<VolumeElement> elements;
   std::vector<BoundaryGroup> groups;
@@ -56,11 +59,13 @@ inline const std::vector<std::vector<int>>& facets_of(int type) {
       type));
 }
 
-/// A facet of a volume element: how often it occurs, and its area vector out of the first element.
+/// A facet of a volume element: how often it occurs, its nodes in the order of the first element,
+/// and its area vector out of that.
 template <int Dim>
 struct Facet {
   int elements = 0;
-  bool has_side = false;
+  int side = -1;  ///< index of its physical group's name, -1 without one
+  Tags corners;
   Point<Dim> area;
 };
 
@@ -126,12 +131,76 @@ Topology<Dim> topology_of(const Mesh& mesh) {
       if (area.dot(outwards) < 0) area = -area;
       // Gauss' theorem for the position about the centre.
       result.measure += area.dot(outwards) / Dim;
-      std::sort(tags.begin(), tags.end());
-      Facet<Dim>& facet = result.facets[tags];
-      if (facet.elements++ == 0) facet.area = area;
+      Tags sorted = tags;
+      std::sort(sorted.begin(), sorted.end());
+      Facet<Dim>& facet = result.facets[sorted];
+      if (facet.elements++ > 0) continue;
+      facet.corners = std::move(tags);
+      facet.area = area;
     }
   }
   return result;
+}
+
+/// Names of the mesh's groups, for messages.
+inline std::string group_names(const Mesh& mesh) {
+  std::string names;
+  for (const BoundaryGroup& group : mesh.groups) names += (names.empty() ? "" : ", ") + group.name;
+  return names.empty() ? "none" : names;
+}
+
+/// Throws CaseError naming a node unless coordinates beyond Dim vanish compared to a length.
+template <int Dim>
+void check_flat(const Mesh& mesh, const Topology<Dim>& topology, double length) {
+  for (const auto& [tag, x] : topology.nodes) {
+    for (int c = Dim; c < 3; ++c) {
+      if (std::abs(mesh.nodes.at(tag)[c]) <= 1e-9 * std::abs(length)) continue;
+      throw CaseError(fmt::format("node {} has {} = {}; a {}D mesh must have it zero", tag,
+                                  "xyz"[c], mesh.nodes.at(tag)[c], Dim));
+    }
+  }
+}
+
+/// Gives each boundary facet the side that its physical group is named after. Throws CaseError for
+/// a group that is no side, that is not on the boundary or that shares an element with another, and
+/// for boundary without a side.
+template <int Dim>
+void assign_sides(const std::vector<std::string>& sides, const Mesh& mesh,
+                  Topology<Dim>& topology) {
+  for (const BoundaryGroup& group : mesh.groups) {
+    const auto place = std::find(sides.begin(), sides.end(), group.name);
+    if (place == sides.end()) {
+      throw CaseError(
+          fmt::format("physical group '{}' is not a side of the domain; known sides: {}; groups in "
+                      "the file: {}",
+                      group.name, fmt::join(sides, ", "), group_names(mesh)));
+    }
+    const auto side = static_cast<int>(place - sides.begin());
+    for (Tags tags : group.elements) {
+      std::sort(tags.begin(), tags.end());
+      const auto facet = topology.facets.find(tags);
+      if (facet == topology.facets.end() || facet->second.elements != 1) {
+        throw CaseError(fmt::format(
+            "an element of physical group '{}' (nodes {}) is not on the boundary of the mesh; keep "
+            "only boundary entities in the group",
+            group.name, fmt::join(tags, ", ")));
+      }
+      if (facet->second.side >= 0 && facet->second.side != side) {
+        throw CaseError(fmt::format(
+            "an element (nodes {}) is in both physical groups '{}' and '{}'; keep it in one",
+            fmt::join(tags, ", "), sides[facet->second.side], group.name));
+      }
+      facet->second.side = side;
+    }
+  }
+  for (const auto& [tags, facet] : topology.facets) {
+    if (facet.elements != 1 || facet.side >= 0) continue;
+    throw CaseError(fmt::format(
+        "boundary node {} at {} (element with nodes {}) has no side; put its boundary into a "
+        "physical group named after one of: {}; groups in the file: {}",
+        tags[0], format_point(topology.nodes.at(tags[0])), fmt::join(tags, ", "),
+        fmt::join(sides, ", "), group_names(mesh)));
+  }
 }
 
 }  // namespace strongpoint

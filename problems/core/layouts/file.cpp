@@ -178,9 +178,11 @@ LayoutEntry layout_file() {
       {"file",
        "nodes from a Gmsh mesh (.msh, physical groups named after sides) or a table (.csv with "
        "x,y[,z],tag[,nx,ny,nz])",
-       {{"path", "", "the file, .msh or .csv"}}},
+       {{"path", "", "the file, .msh or .csv; the problem's own mesh, if it has one"}}},
       []<int Dim>(const Domain<Dim>& domain, const Options& options, const LayoutRequest&) {
-        return read_file(domain, options.text("path"));
+        if (options.has("path")) return read_file(domain, options.text("path"));
+        if (domain.own_mesh()) return read_file(domain, *domain.own_mesh());
+        throw SkipCase("file: path= is missing, and the problem has no mesh of its own");
       },
       Sizing::by_file);
 }
