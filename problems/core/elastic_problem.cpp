@@ -42,6 +42,19 @@ Point<Dim> within(const std::vector<int>& free_axes, const Point<Dim>& normal) {
   return length > 0 ? Point<Dim>(part / length) : part;
 }
 
+/// False where two faces meet smoothly, at less than some 20 degrees, or back to back: their normal
+/// tractions say nearly the same.
+template <int Dim>
+bool are_apart(std::span<const BoundaryMark<Dim>> faces) {
+  constexpr double cosine = 0.94;
+  for (std::size_t a = 0; a < faces.size(); ++a) {
+    for (std::size_t b = a + 1; b < faces.size(); ++b) {
+      if (std::abs(faces[a].normal.dot(faces[b].normal)) > cosine) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 OptionDoc unknowns_option() {
@@ -178,7 +191,8 @@ void ElasticProblem<Dim>::write_conditions(const Node<Dim>& node,
     if (!values[i]) free_axes.push_back(i);
   }
   const std::vector<BoundaryMark<Dim>> faces = loaded_faces(node);
-  const bool by_face = faces.size() > 1 && faces.size() <= free_axes.size();
+  const bool by_face =
+      faces.size() > 1 && faces.size() <= free_axes.size() && are_apart<Dim>(faces);
   const std::vector<Point<Dim>> along =
       by_face ? directions_beside<Dim>(free_axes, faces) : std::vector<Point<Dim>>{};
   std::size_t row = 0;  // among those of the free components

@@ -28,7 +28,7 @@ Unknowns chosen_unknowns(const Options& options);
 /// tractions meet, the normal traction of each and, along the directions left over (an edge of a
 /// solid), the sum of their shear tractions; a face that `owns_corners` gives all by itself. Faces
 /// with tractions go before supports; where only supports meet, their tractions are added up, and
-/// so they are when faces outnumber the components left.
+/// so they are when faces outnumber the components left or meet smoothly.
 template <int Dim>
 class ElasticProblem : public FluxProblem<Dim> {
  public:
