@@ -13,6 +13,7 @@
 #include "problems/core/layout.hpp"
 #include "problems/core/problem.hpp"
 #include "problems/core/solvers.hpp"
+#include "studies/support/cloud_spec.hpp"
 #include "studies/support/csv.hpp"
 
 namespace strongpoint {
@@ -25,9 +26,10 @@ constexpr int largest_level = 10'000'000;
 struct AxisValue {
   std::string spec;
   Status status = Status::ok;
-  std::string reason;
-  int dimension = 2;      ///< of a problem
-  std::string companion;  ///< a method's default stencil
+  std::string reason{};
+  int dimension = 2;        ///< of a problem
+  bool has_mesh = false;    ///< of a problem: nodes of its own, which `--cloud file` takes
+  std::string companion{};  ///< a method's default stencil
 };
 
 /// The specs of an axis before they are looked up. `all` may name things that need an option, which
@@ -61,10 +63,8 @@ template <class Make>
 std::vector<AxisValue> resolve(const AxisText& axis, Make&& make) {
   std::vector<AxisValue> values;
   for (const std::string& spec : axis.specs) {
-    AxisValue value{spec, Status::ok, "", 2, ""};
-    const auto refuse = [&](Status status, const char* reason) {
-      value = {spec, status, reason, 2, ""};
-    };
+    AxisValue value{spec};
+    const auto refuse = [&](Status status, const char* reason) { value = {spec, status, reason}; };
     try {
       make(spec, value);
     } catch (const SkipCase& error) {
@@ -88,6 +88,9 @@ std::vector<AxisValue> problem_axis(const std::string& text) {
                    const NamedProblem problem = make_problem(spec);
                    value.spec = problem.spec;
                    value.dimension = static_cast<int>(problem.made.index()) + 1;
+                   value.has_mesh = std::visit(
+                       [](const auto& made) { return made->domain().own_mesh().has_value(); },
+                       problem.made);
                  });
 }
 
@@ -106,36 +109,6 @@ std::vector<AxisValue> stencil_axis(const AxisText& axis) {
   return resolve(axis, [](const std::string& spec, AxisValue& value) {
     value.spec = make_rule<Dim>(spec).spec;
   });
-}
-
-/// Throws UsageError for an option value that only making a cloud would look at, so that it is told
-/// before anything runs.
-void check_values(const Spec& spec, const EntryInfo& info, const std::string& canonical) {
-  if (is_file_cloud(canonical)) {
-    static_cast<void>(Options(info, spec).text("path"));
-    return;
-  }
-  constexpr int trial_level = 5;
-  try {
-    static_cast<void>(make_cloud<2>(UnitCube<2>(), canonical, {trial_level, 1}));
-  } catch (const SkipCase&) {
-    // What the unit square cannot serve may suit the problem's domain.
-  } catch (const CaseError&) {
-  }
-}
-
-/// The spec of a cloud with the seed of the command line where it knows one and gives none.
-std::string seeded(const std::string& text, const std::optional<std::uint64_t>& seed) {
-  Spec spec = parse_spec(text);
-  const EntryInfo& info = find_entry(layouts(), "cloud", spec.name).info;
-  const bool knows = std::any_of(info.options.begin(), info.options.end(),
-                                 [](const OptionDoc& option) { return option.key == "seed"; });
-  const bool gives = std::any_of(spec.arguments.begin(), spec.arguments.end(),
-                                 [](const auto& argument) { return argument.first == "seed"; });
-  if (seed && knows && !gives) spec.arguments.emplace_back("seed", fmt::format("{}", *seed));
-  std::string canonical = canonical_cloud(to_string(spec));
-  check_values(spec, info, canonical);
-  return canonical;
 }
 
 std::vector<int> parse_levels(const std::string& text) {
@@ -164,9 +137,9 @@ std::vector<int> parse_levels(const std::string& text) {
 template <int Dim>
 std::vector<AxisValue> stencils_for(const AxisValue& method,
                                     const std::optional<AxisText>& written) {
-  if (method.companion == every_node) return {AxisValue{every_node, Status::ok, "", Dim, ""}};
+  if (method.companion == every_node) return {AxisValue{every_node}};
   if (written) return stencil_axis<Dim>(*written);
-  if (method.companion.empty()) return {AxisValue{"default", Status::ok, "", Dim, ""}};
+  if (method.companion.empty()) return {AxisValue{"default"}};
   return stencil_axis<Dim>(
       {"default stencil of " + method.spec, {method.companion}, AxisText::Origin::written});
 }
@@ -225,17 +198,20 @@ void expect_quantities(PlannedCase& planned, const Study& study, const Options& 
   if (planned.quantities.empty()) planned.quantities = {"all"};
 }
 
-/// The axes that are the same in every dimension.
+/// The axes of a problem that are the same in every dimension.
 struct CommonAxes {
   std::vector<AxisValue> clouds, forms, solvers;
   std::vector<int> levels;
 };
 
-CommonAxes common_axes(const AxisTexts& texts) {
+CommonAxes common_axes(const AxisTexts& texts, const AxisValue& problem) {
   CommonAxes axes;
-  axes.clouds = resolve(
-      axis_text("--cloud", texts.cloud, layouts(), registered_name),
-      [&](const std::string& spec, AxisValue& value) { value.spec = seeded(spec, texts.seed); });
+  const std::string& clouds = problem.has_mesh ? texts.mesh_cloud : texts.cloud;
+  axes.clouds = resolve(axis_text("--cloud", clouds, layouts(), registered_name),
+                        [&](const std::string& spec, AxisValue& value) {
+                          value.spec = seeded_cloud(spec, texts.seed);
+                          if (!problem.has_mesh) check_file_is_given(value.spec, problem.spec);
+                        });
   axes.forms =
       resolve(axis_text("--form", texts.form, forms(), registered_name),
               [](const std::string& spec, AxisValue& value) { value.spec = canonical_form(spec); });
@@ -273,10 +249,6 @@ std::string identity_of(const CaseKey& key) {
                    is_file_cloud(key.cloud) ? "" : fmt::format("{}", key.level)});
 }
 
-bool is_file_cloud(const std::string& cloud) {
-  return find_entry(layouts(), "cloud", parse_spec(cloud).name).sizing == Sizing::by_file;
-}
-
 int level_of(std::int64_t nodes, int dimension) {
   return static_cast<int>(std::lround(std::pow(static_cast<double>(nodes), 1.0 / dimension)));
 }
@@ -284,10 +256,10 @@ int level_of(std::int64_t nodes, int dimension) {
 std::vector<PlannedCase> plan_cases(const AxisTexts& texts, const Study& study,
                                     const Options& extra) {
   const std::vector<AxisValue> problem_values = problem_axis(texts.problem);
-  const CommonAxes axes = common_axes(texts);
   std::vector<PlannedCase> cases;
   std::set<std::string> seen;
   for (const AxisValue& problem : problem_values) {
+    const CommonAxes axes = common_axes(texts, problem);
     for_each_case(problem, pairings(problem.dimension, texts), axes, [&](PlannedCase planned) {
       if (!seen.insert(identity_of(planned.key)).second) return;
       expect_quantities(planned, study, extra);

@@ -13,6 +13,7 @@ namespace strongpoint {
 /// The axes of a case grid as a user wrote them: lists of specs, or `all`.
 struct AxisTexts {
   std::string problem, method, cloud, form, solver, levels;
+  std::string mesh_cloud;              ///< of problems that have a mesh of their own
   std::optional<std::string> stencil;  ///< without it every method is run with its own default
   std::optional<std::uint64_t> seed;   ///< joins the spec of clouds that know a seed and give none
 };
@@ -29,9 +30,6 @@ struct PlannedCase {
 /// Text that is the same for a planned case and its rows, and for no other case: the level of a
 /// cloud read from a file is known only afterwards and does not count.
 std::string identity_of(const CaseKey& key);
-
-/// True for a cloud that is read from a file and so has a level of its own.
-bool is_file_cloud(const std::string& cloud);
 
 /// The level of a cloud of `nodes` nodes that is not made to a level: round(nodes^(1/dimension)).
 int level_of(std::int64_t nodes, int dimension);

@@ -83,6 +83,7 @@ AxisTexts axis_texts(const Given& given, const Study& study, const Options& extr
   texts.problem = axis("--problem", defaults.problem);
   texts.method = axis("--method", own_method ? defaults.smoke_method : defaults.method);
   texts.cloud = axis("--cloud", defaults.cloud);
+  texts.mesh_cloud = given.value("--cloud", "file");
   texts.form = axis("--form", defaults.form);
   texts.solver = axis("--solver", defaults.solver);
   texts.levels = given.value("--levels", given.smoke ? defaults.smoke_levels : defaults.levels);
@@ -127,7 +128,9 @@ std::vector<OptionHelp> option_helps(const Study& study) {
       {"--problem", specs, "problems, or all; default " + defaults.problem},
       {"--method", specs, "methods, or all; default " + defaults.method},
       {"--stencil", specs, "stencil rules, or all; default: what suits each method"},
-      {"--cloud", specs, "node layouts, or all; default " + defaults.cloud},
+      {"--cloud", specs,
+       "node layouts, or all; default " + defaults.cloud +
+           ", or file where the problem has a mesh of its own"},
       {"--levels", "N[,N]", "nodes along the reference side; default " + defaults.levels},
       {"--form", specs, "how the system is written, or all; default " + defaults.form},
       {"--solver", specs, "linear solvers, or all; default " + defaults.solver},

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <omp.h>
 
+#include "studies/support/cloud_spec.hpp"
 #include "studies/support/command_line.hpp"
 #include "studies/support/csv.hpp"
 #include "studies/support/interruption.hpp"
