@@ -89,7 +89,8 @@ void check_that_dropping_throws(const std::string& spec) {
 
 TEST(Skipping, ReadingADerivativeThatWasNotDeclaredThrows) {
   for (const ProblemEntry& entry : problems()) {
-    if (entry.info.name != "field") check_that_dropping_throws(entry.info.name);
+    if (entry.info.name == "field" || entry.info.name == "elastic") continue;  // needs a file
+    check_that_dropping_throws(entry.info.name);
   }
 }
 
