@@ -58,13 +58,13 @@ std::vector<NodeArray> elastic_arrays(const std::vector<std::string>& names,
   return arrays;
 }
 
-#define STRONGPOINT_INSTANTIATE(Dim) /* the same for each dimension */                             \
-  template double von_mises<Dim>(const Eigen::Matrix<double, Dim*(Dim + 1) / 2, 1>&, const Lame&); \
-  template std::vector<NodeArray> elastic_arrays<Dim>(                                             \
-      const std::vector<std::string>&, const std::vector<Lame>&, const ElasticNodes&,              \
-      const std::optional<ElasticNodes>&)
-STRONGPOINT_INSTANTIATE(2);
-STRONGPOINT_INSTANTIATE(3);
-#undef STRONGPOINT_INSTANTIATE
+template double von_mises<2>(const Eigen::Vector3d&, const Lame&);
+template double von_mises<3>(const Eigen::Matrix<double, 6, 1>&, const Lame&);
+template std::vector<NodeArray> elastic_arrays<2>(const std::vector<std::string>&,
+                                                  const std::vector<Lame>&, const ElasticNodes&,
+                                                  const std::optional<ElasticNodes>&);
+template std::vector<NodeArray> elastic_arrays<3>(const std::vector<std::string>&,
+                                                  const std::vector<Lame>&, const ElasticNodes&,
+                                                  const std::optional<ElasticNodes>&);
 
 }  // namespace strongpoint
