@@ -143,8 +143,11 @@ class View:
         if options.plane:
             if dimension < 3:
                 raise MapError(f"--plane {options.plane}: '{path}' has {dimension} dimensions; only 3D is cut")
+            extent = np.ptp(self.nodes.positions)
             self.nodes, self.shown = surfaces.on_plane(self.nodes, options.plane)
-            next_to = "" if np.ptp(self.nodes.positions, axis=0).min() == 0 else "nodes next to "
+            axis, value = surfaces.parsed_plane(options.plane)
+            exact = np.ptp(np.append(self.nodes.positions[:, axis], value)) <= surfaces.ROUND_OFF * extent
+            next_to = "" if exact else "nodes next to "
             self.add(f"{next_to}plane\N{NO-BREAK SPACE}{options.plane}", "plane-" + options.plane.replace("=", ""))
         self.filled = options.filled or bool(options.plane)
         if self.filled and len(self.shown) != 2:

@@ -5,6 +5,7 @@ import numpy as np
 from vtu import MapError, distances
 
 AXES = "xyz"
+ROUND_OFF = 1e-9  # of the extent: coordinates that differ by less are one
 # Triangles have circumradii of 0.7 spacings on a grid, up to 1.8 on random nodes; those that close a
 # hole have the radius of the hole or more, wherever their nodes lie on it.
 WIDEST = 2.0
@@ -28,17 +29,24 @@ def parsed_plane(text):
 def on_plane(nodes, text):
     """The nodes next to a plane and the two axes that it shows.
 
-    A node is taken when it lies within half the distance to its nearest neighbour: of a cloud that
-    has nodes on the plane these alone, of any other about one layer.
+    Of a cloud in layers it is the nearest layer. Of any other a node is taken when it lies within half
+    the distance to its nearest neighbour: the nodes on the plane where there are some, else about one
+    layer, as they are, which is the rougher the less the cloud is one in layers.
     """
     axis, value = parsed_plane(text)
-    offsets = np.abs(nodes.positions[:, axis] - value)
-    chosen = offsets <= 0.5 * distances(nodes.positions, 1)
-    shown = [a for a in range(3) if a != axis]
+    places = nodes.positions[:, axis]
+    low, high = places.min(), places.max()
+    tolerance = ROUND_OFF * (high - low)
+    if not low - tolerance <= value <= high + tolerance:
+        raise MapError(f"--plane {text}: misses the nodes; {AXES[axis]} runs from {low:g} to {high:g}")
+    offsets = np.abs(places - value)
+    if len(np.unique(np.round(places / tolerance))) <= len(places)**0.5:
+        chosen = np.abs(places - places[offsets.argmin()]) <= tolerance
+    else:
+        chosen = offsets <= 0.5 * distances(nodes.positions, 1)
     if chosen.sum() < 3:
-        low, high = nodes.positions[:, axis].min(), nodes.positions[:, axis].max()
-        raise MapError(f"--plane {text}: holds {chosen.sum()} nodes, a section takes 3; {AXES[axis]} runs from "
-                       f"{low:g} to {high:g}")
+        raise MapError(f"--plane {text}: has {chosen.sum()} nodes next to it, and a section takes 3; name another")
+    shown = [a for a in range(3) if a != axis]
     return nodes.at(chosen), shown
 
 

@@ -75,6 +75,13 @@ class Surfaces(unittest.TestCase):
             np.testing.assert_array_equal(cut.arrays["number"],
                                           np.flatnonzero(grid[:, axis] == float(text[2:])))
 
+    def test_a_section_between_layers_takes_one_of_them_whole(self):
+        # Layers far apart against the spacing within: half a nearest distance would take no node.
+        grid = np.stack(np.meshgrid(*[np.arange(9) / 80] * 2, np.arange(9) / 8, indexing="ij"), axis=-1).reshape(-1, 3)
+        for text, layer in (("z=0.3", 0.25), ("z=0.32", 0.375), ("z=0.3125", 0.25)):
+            cut, _ = surfaces.on_plane(Map(grid, {}, ""), text)
+            self.assertEqual((len(cut.positions), set(cut.positions[:, 2])), (81, {layer}))
+
     def test_a_section_beside_the_nodes_takes_a_layer(self):
         places = scattered(8000, 3)
         cut, _ = surfaces.on_plane(Map(places, {}, ""), "z=0.5")
