@@ -65,7 +65,7 @@ def add_colour_bar(axes, drawn, name, values, norm):
     """A colour bar; a few whole numbers get a tick each."""
     whole = np.unique(values)
     few = len(whole) <= MOST_LEVELS and np.all(whole == np.round(whole)) and norm.vmin >= 0
-    axes.figure.colorbar(drawn, ax=axes, label=name, shrink=0.85,
+    axes.figure.colorbar(drawn, ax=axes, label=name, shrink=0.85, pad=0.12 if axes.name == "3d" else 0.05,
                          extend="min" if values.min() < norm.vmin else "neither",
                          ticks=whole if few and not isinstance(norm, LogNorm) else None)
 
@@ -186,13 +186,16 @@ class View:
         if len(self.shown) == 1:
             draw_line(axes, self.nodes.positions, values, label)
         else:
-            axes.set_aspect("equal")
+            if len(self.shown) == 2:
+                axes.set_aspect("equal")
             if self.warped:
                 draw_undeformed(axes, self.before)
             if self.filled:
                 draw_filled(axes, self.after, values, label, self.before)
             else:
                 draw_coloured(axes, self.after, values, label)
+            if len(self.shown) == 3:
+                axes.set_aspect("equal")  # in space it fixes the limits to what is drawn already
             for place, axis in zip("xyz", self.shown):
                 getattr(axes, f"set_{place}label")(surfaces.AXES[axis])
         axes.set_title(textwrap.fill(self.title, TITLE_WIDTH))

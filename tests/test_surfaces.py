@@ -5,6 +5,7 @@ Usage: test_surfaces.py [BUILD_DIRECTORY]; without it the variable STRONGPOINT_B
 """
 import subprocess
 import sys
+import types
 import unittest
 
 import numpy as np
@@ -13,7 +14,8 @@ from study_programs import ROOT
 from vtu_files import MapTest
 
 sys.path.insert(0, str(ROOT / "results"))
-import surfaces  # noqa: E402  (stands beside the plots)
+import maps  # noqa: E402  (stands beside the plots)
+import surfaces  # noqa: E402
 from vtu import Map, MapError, distances  # noqa: E402
 
 PLATE = ["--problem", "plate_hole", "--method", "lsfdm", "--levels", "21"]
@@ -121,6 +123,19 @@ class Pictures(MapTest):
             self.assertEqual(result.returncode, 2, result.stderr)
             self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
             self.assertIn(word, result.stderr)
+
+    def test_the_axes_hold_all_nodes_moved_or_not(self):
+        files = self.maps("convergence", "--problem", "thick_sphere", "--method", "lsfdm", "--cloud", "scattered",
+                          "--levels", "6")
+        (path,) = files
+        for plane in (None, "z=0"):
+            view = maps.View(path, types.SimpleNamespace(plane=plane, filled=None, warp=20.0))
+            (axes, *_) = view.draw("von_mises").axes
+            for axis, letter in enumerate("xyz"[:len(view.shown)]):
+                low, high = getattr(axes, f"get_{letter}lim")()
+                for places in (view.before, view.after):
+                    self.assertLessEqual(low, places[:, axis].min())
+                    self.assertGreaterEqual(high, places[:, axis].max())
 
     def test_lines_and_tables_are_refused(self):
         files = self.maps("convergence", "--problem", "bvp_1d", "--method", "mfpm", "--levels", "7")
