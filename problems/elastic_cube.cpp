@@ -46,6 +46,11 @@ class ElasticCube final : public ElasticProblem<3> {
             relative_error(nodal_stresses(solution), exact_.stresses(solution.cloud))};
   }
 
+ protected:
+  std::optional<ElasticNodes> exact_at_nodes(const PointCloud<3>& cloud) const override {
+    return exact_.at_nodes(cloud);
+  }
+
  private:
   static constexpr double young = 1000;
   Traction traction_;

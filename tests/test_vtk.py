@@ -60,6 +60,24 @@ class Steady(MapTest):
         np.testing.assert_array_equal(file.arrays["displacement"],
                                       np.column_stack([file.arrays["u"], file.arrays["v"], 0 * x]))
 
+    def test_elastic_problems_show_stresses_and_the_errors_they_know(self):
+        for problem, dim, known in (("thick_cylinder[unknowns=mixed]", 2, True), ("thick_sphere", 3, True),
+                                    ("elastic_cube", 3, True), ("cook", 2, False), ("block_bore", 3, False)):
+            with self.subTest(problem):
+                files = self.maps("convergence", "--problem", problem, "--method", "lsfdm", "--form", "flux",
+                                  "--cloud", "scattered", "--levels", "6")
+                file = next(f for p, f in files.items() if problem.split("[")[0] in p.name)
+                stresses = ["sigma_xx", "sigma_yy", "tau_xy"] if dim == 2 else [
+                    "sigma_xx", "sigma_yy", "sigma_zz", "tau_xy", "tau_xz", "tau_yz"]
+                fields = list("uvw"[:dim]) + (["p"] if "mixed" in problem else [])
+                errors = [n + "_error" for n in [*fields, *stresses, "von_mises"]] if known else []
+                self.assertEqual(list(file.arrays), [*fields, "displacement", *stresses, "von_mises", *errors,
+                                                     "stencil_size", "condition_two", "zone"])
+                for name in list(file.arrays)[:-3]:
+                    self.assertTrue(np.isfinite(file.arrays[name]).all(), name)
+                if known:  # a coarse cloud, but no other solution: the pressure is 1, the stresses about that
+                    self.assertLess(np.median(file.arrays["von_mises_error"]), 0.3 * file.arrays["von_mises"].max())
+
     def test_nodes_without_a_stencil_have_no_number_of_one(self):
         file = self.only("--problem", "poisson_square[bc=mixed]", "--method", "mfpm", "--stencil",
                          "nearest[k=9,ties=cut]", "--levels", "9")

@@ -47,6 +47,11 @@ class ThickWalled final : public ElasticProblem<Dim> {
             relative_error(this->nodal_stresses(solution), exact_.stresses(solution.cloud))};
   }
 
+ protected:
+  std::optional<ElasticNodes> exact_at_nodes(const PointCloud<Dim>& cloud) const override {
+    return exact_.at_nodes(cloud);
+  }
+
  private:
   static constexpr double young = 1000;
   static constexpr double pressure = 1;
