@@ -7,6 +7,7 @@
 #include "problems/core/domains/bored_block.hpp"
 #include "problems/core/domains/polygon.hpp"
 #include "problems/core/domains/quarter_annulus.hpp"
+#include "problems/core/domains/quarter_plate.hpp"
 #include "problems/core/domains/shell_octant.hpp"
 #include "problems/core/random.hpp"
 #include "tests/domain_checks.hpp"
@@ -143,6 +144,17 @@ TEST(QuarterAnnulus, ScattersNodesEvenly) {
                                 : annulus.measure() * n * n / 9 + 0.5 * (2.5 * pi + 6) * n / 3;
     EXPECT_NEAR(cloud.size() / expected, 1, 0.06);
   }
+}
+
+TEST(QuarterPlate, ScattersNodesEvenly) {
+  const QuarterPlate plate(0.2, QuarterPlate::Map::log);
+  const PointCloud<2> cloud = make_cloud<2>(plate, "scattered", {31, 1});
+  expect_nodes_on_their_sides<2>(plate, cloud, [](const Point2& x) -> std::vector<double> {
+    return {x.norm() - 0.2, x[1], x[0] - 1, x[1] - 1, x[0]};
+  });
+  expect_normals_along_the_distance(plate, cloud);
+  expect_even(plate, cloud, 31, 0.8, 1.2);
+  EXPECT_NEAR(covered_share(plate, cloud), 1, covered_tolerance);
 }
 
 std::vector<double> shell_gaps(const Point3& x) {

@@ -3,6 +3,7 @@
 
 #include "problems/core/domains/bored_block.hpp"
 #include "problems/core/domains/quarter_annulus.hpp"
+#include "problems/core/domains/quarter_plate.hpp"
 #include "problems/core/domains/shell_octant.hpp"
 #include "tests/domain_checks.hpp"
 
@@ -20,6 +21,10 @@ TEST(Features, MeasureDistancesFromPlacesByName) {
   const QuarterAnnulus annulus(1, 4, Radii::geometric);
   EXPECT_DOUBLE_EQ(feature<2>(annulus, "inner").distance({0, 2.5}), 1.5);
   EXPECT_DOUBLE_EQ(feature<2>(annulus, "corners").distance({0.75, 4}), 0.75);
+  const QuarterPlate plate(0.2, QuarterPlate::Map::log);
+  EXPECT_DOUBLE_EQ(feature<2>(plate, "notch").distance({0.3, 0.6}), 0.5);
+  EXPECT_DOUBLE_EQ(feature<2>(plate, "hole").distance({0.3, 0.4}), 0.3);
+  EXPECT_DOUBLE_EQ(feature<2>(plate, "corners").distance({1, 0.7}), 0.3);
   EXPECT_DOUBLE_EQ(feature<3>(ShellOctant(1, 2), "outer").distance({0, 0, 1.5}), 0.5);
   EXPECT_DOUBLE_EQ(feature<3>(BoredBlock(), "ligament").distance({0.3, 2.2, 0.4}), 0.5);
   EXPECT_DOUBLE_EQ(feature<3>(UnitCube<3>(), "corners").distance({1, 0.75, 0}), 0.25);
@@ -48,6 +53,7 @@ TEST(Features, HaveDistinctNamesAndVanishSomewhereOnTheBoundary) {
   check(cook());
   check(notched());
   check(QuarterAnnulus(1, 4, Radii::uniform));
+  check(QuarterPlate(0.2, QuarterPlate::Map::log));
   check(ShellOctant(1, 2));
   check(BoredBlock());
   check(UnitCube<1>());

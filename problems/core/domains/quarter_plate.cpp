@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "problems/core/domains/quarter_annulus.hpp"
@@ -69,6 +70,25 @@ std::vector<BoundaryPiece<2>> QuarterPlate::pieces() const {
 
 double QuarterPlate::spacing(const Point2& x, int level) const {
   return std::numbers::pi / 2 / (level - 1) * a_ * std::pow(std::max(x.norm(), a_) / a_, 1.5);
+}
+
+std::vector<Feature<2>> QuarterPlate::features() const {
+  const double a = a_;
+  const auto corners = [a](const Point2& x) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Point2& corner :
+         {Point2(a, 0), Point2(1, 0), Point2(1, 1), Point2(0, 1), Point2(0, a)}) {
+      nearest = std::min(nearest, (x - corner).norm());
+    }
+    return nearest;
+  };
+  return {{"hole", [a](const Point2& x) { return std::abs(x.norm() - a); }},
+          {"bottom", [](const Point2& x) { return std::abs(x[1]); }},
+          {"right", [](const Point2& x) { return std::abs(x[0] - 1); }},
+          {"top", [](const Point2& x) { return std::abs(x[1] - 1); }},
+          {"left", [](const Point2& x) { return std::abs(x[0]); }},
+          {"corners", corners},
+          {"notch", [a](const Point2& x) { return (x - Point2(0, a)).norm(); }}};
 }
 
 }  // namespace strongpoint

@@ -8,7 +8,8 @@
 namespace strongpoint {
 
 /// [0,1]^2 without the disc r < a, with sides hole, bottom, right, top, left. Unit coordinates are
-/// (angle over 90 degrees, position along the ray).
+/// (angle over 90 degrees, position along the ray). Features: the sides, `corners`, and `notch`,
+/// the point (0, a).
 class QuarterPlate final : public Domain<2> {
  public:
   /// How a grid's nodes lie along a ray.
@@ -33,6 +34,7 @@ class QuarterPlate final : public Domain<2> {
   std::vector<BoundaryPiece<2>> pieces() const override;
   /// c a (r/a)^1.5 with c = (pi/2) / (n-1): n nodes on the arc.
   double spacing(const Point<2>& x, int level) const override;
+  std::vector<Feature<2>> features() const override;
 
  private:
   double a_;
