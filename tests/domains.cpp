@@ -19,7 +19,7 @@ using Point2 = Point<2>;
 using Point3 = Point<3>;
 
 /// Share of a domain that tangents to concave arcs cut off its cells, at the levels below.
-constexpr double covered_tolerance = 2e-3;
+constexpr double covered_tolerance = 1e-3;
 
 /// Gaps of Cook's membrane from its sides' equations.
 std::vector<double> cook_gaps(const Point2& x) {
@@ -168,7 +168,7 @@ TEST(ShellOctant, ScattersNodesEvenly) {
   expect_nodes_on_their_sides<3>(shell, cloud, shell_gaps);
   expect_normals_along_the_distance(shell, cloud);
   expect_even(shell, cloud, level, 0.8, 1.15);
-  EXPECT_NEAR(covered_share(shell, cloud), 1, 5e-3);
+  EXPECT_NEAR(covered_share(shell, cloud), 1, covered_tolerance);
   const double h = std::numbers::pi / 2 / (level - 1);
   const double expected = std::numbers::pi / 2 * std::numbers::ln2 / (h * h * h);
   EXPECT_GT(cloud.size(), expected);
@@ -191,7 +191,7 @@ TEST(BoredBlock, ScattersNodesEvenly) {
   expect_nodes_on_their_sides<3>(block, cloud, block_gaps);
   expect_normals_along_the_distance(block, cloud);
   expect_even(block, cloud, level, 0.7, 1.2);
-  EXPECT_NEAR(covered_share(block, cloud), 1, 5e-3);
+  EXPECT_NEAR(covered_share(block, cloud), 1, covered_tolerance);
 }
 
 TEST(BoredBlock, HasAboutAsManyNodesAsALevelSays) {
