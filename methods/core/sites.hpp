@@ -37,6 +37,9 @@ struct Needs {
 template <int Dim>
 struct IndexBlock {
   std::array<int, Dim> shape;
+  /// Coordinates of the nodes along each axis before a map shaped them, from 0 to 1; empty lists:
+  /// equidistant ones.
+  std::array<std::vector<double>, Dim> axes{};
 };
 
 /// Whether the segment between two places stays in the domain; may be asked from several threads.
@@ -58,10 +61,17 @@ struct Sites {
   Eigen::VectorXd spacing;           ///< (A) local node spacing, empty unless needed
   std::optional<IndexBlock<Dim>> block;  ///< structured clouds only
   Sight<Dim> sees;                       ///< empty unless needed
+  std::vector<int> node_part;            ///< (N) part of each node, empty when there is one: no
+                                         ///< stencil leaves the part of its anchor
+  std::vector<int> anchor_part;          ///< (A) the same of each anchor
+  std::vector<std::optional<IndexBlock<Dim>>> part_blocks;  ///< (parts) as `block`, ids within the
+                                                            ///< part
 
   int node_count() const { return static_cast<int>(nodes.cols()); }
   int anchor_count() const { return static_cast<int>(anchors.cols()); }
   int point_count() const { return static_cast<int>(points.cols()); }
+  /// Number of parts that stencils keep within.
+  int part_count() const { return part_blocks.empty() ? 1 : static_cast<int>(part_blocks.size()); }
   /// Ids of the anchors whose stencil is wanted.
   std::vector<int> wanted_anchors() const;
 };
