@@ -20,6 +20,18 @@ std::vector<BoundaryMark<Dim>> Domain<Dim>::marks(const std::vector<int>& sides,
 }
 
 template <int Dim>
+std::vector<Block<Dim>> Domain<Dim>::blocks() const {
+  Block<Dim> block{[this](const Point<Dim>& unit) { return map(unit); }, {}};
+  for (int face = 0; face < 2 * Dim; ++face) {
+    Point<Dim> centre = Point<Dim>::Constant(0.5);
+    centre[face / 2] = face % 2;
+    const std::vector<int> found = sides_at(centre);
+    block.sides[face] = found.empty() ? interface_side : found.front();
+  }
+  return {block};
+}
+
+template <int Dim>
 const std::vector<std::string>& UnitCube<Dim>::sides() const {
   static const std::vector<std::string> all{"left", "right", "bottom", "top", "back", "front"};
   static const std::vector<std::string> names(all.begin(), all.begin() + 2 * Dim);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -16,6 +17,14 @@ struct BoundaryPiece {
   int side;  ///< index into the domain's sides
   std::function<Point<Dim>(const Parameter&)>
       map;  ///< ends (1D edges, 2D rims) are shared with neighbours
+};
+
+/// A smooth image of the unit cube, one of those that make up a domain.
+template <int Dim>
+struct Block {
+  std::function<Point<Dim>(const Point<Dim>&)> map;  ///< from [0,1]^Dim, smooth up to the faces
+  std::array<int, 2 * Dim> sides;  ///< side on each face, 2 c + end for x_c = end; the others are
+                                   ///< `interface_side`
 };
 
 /// A corner, curve or face of a domain's boundary that nodes can be concentrated at.
@@ -51,6 +60,13 @@ class Domain {
   virtual double distance(const Point<Dim>& x) const = 0;
   /// The boundary, piece by piece; pieces meet only at their ends.
   virtual std::vector<BoundaryPiece<Dim>> pieces() const = 0;
+  /// Blocks that cover the domain, face to face, each with a smooth map: the image of the unit cube
+  /// unless a domain's map has kinks. Throws SkipCase when there are none.
+  virtual std::vector<Block<Dim>> blocks() const;
+  /// Parts of the domain with data of their own, patch by patch, side indices being those of the
+  /// whole; empty when there is one. Each gets a cloud by itself, and these have to meet node on
+  /// node at the sides that are `interface_side`.
+  virtual std::vector<const Domain*> patches() const { return {}; }
   /// Wanted distance between nodes of a scattered cloud of a level; uniform unless a problem grades
   /// it.
   virtual double spacing(const Point<Dim>& x, int level) const;

@@ -41,6 +41,8 @@ class Form {
   /// both can.
   virtual std::string unsupported(const SteadyProblem<Dim>& problem,
                                   const Method<Dim>& method) const = 0;
+  /// True when clouds of several parts are served: what holds on interfaces is then written.
+  virtual bool joins_parts() const { return false; }
   /// Lays out the discrete system of a problem that is supported. Throws SkipCase and CaseError.
   virtual Plan<Dim> plan(const SteadyProblem<Dim>& problem, const PointCloud<Dim>& cloud,
                          const Method<Dim>& method) const = 0;

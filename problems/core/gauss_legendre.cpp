@@ -6,12 +6,13 @@
 namespace strongpoint {
 namespace {
 
-/// Value and slope of the Legendre polynomial of degree n at x.
+/// Values of the Legendre polynomials of degrees n and n - 1, and the slope of the first, at x
+/// within (-1, 1).
 struct Legendre {
-  double value, slope;
+  double value, before, slope;
 
   Legendre(int n, double x) {
-    double before = 1;
+    before = 1;
     value = x;
     for (int k = 2; k <= n; ++k) {
       const double next = ((2 * k - 1) * x * value - (k - 1) * before) / k;
@@ -36,6 +37,25 @@ LineRule gauss_legendre(int n) {
     rule.at.push_back((1 + x) / 2);
     rule.weight.push_back(1 / ((1 - x * x) * slope * slope));
   }
+  return rule;
+}
+
+LineRule gauss_lobatto(int n) {
+  const int degree = n - 1;
+  const double ends = 1.0 / (degree * n);
+  LineRule rule{{0.0}, {ends}};
+  for (int i = degree - 1; i > 0; --i) {
+    double x = std::cos(std::numbers::pi * i / degree);  // Chebyshev-Lobatto
+    for (int step = 0; step < 12; ++step) {
+      const Legendre p(degree, x);
+      x -= (x * p.value - p.before) / (n * p.value);
+    }
+    const double value = Legendre(degree, x).value;
+    rule.at.push_back((1 + x) / 2);
+    rule.weight.push_back(ends / (value * value));
+  }
+  rule.at.push_back(1);
+  rule.weight.push_back(ends);
   return rule;
 }
 

@@ -16,4 +16,8 @@ struct LineRule {
 /// Newton's method on the Legendre polynomial.
 LineRule gauss_legendre(int n);
 
+/// Gauss-Lobatto rule of n >= 2 points, both ends among them, exact for polynomials of degree 2n -
+/// 3. Nodes are found by Newton's method on (1 - x^2) P'.
+LineRule gauss_lobatto(int n);
+
 }  // namespace strongpoint

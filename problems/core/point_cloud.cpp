@@ -24,16 +24,22 @@ void check_finite(const Points<Dim>& nodes) {
   }
 }
 
+/// The nodes at the place of each node, itself among them.
 template <int Dim>
-void check_distinct(const Points<Dim>& nodes) {
+Stencils coincident_nodes(const Points<Dim>& nodes) {
   const Point<Dim> low = nodes.rowwise().minCoeff();
   const Point<Dim> high = nodes.rowwise().maxCoeff();
   const double tolerance = coincidence_tolerance * (high - low).norm();
   const std::vector<double> radii(static_cast<std::size_t>(nodes.cols()), tolerance);
-  const Stencils near = make_search<Dim>("nanoflann", nodes)->within(nodes, radii);
+  return make_search<Dim>("nanoflann", nodes)->within(nodes, radii);
+}
+
+template <int Dim>
+void check_distinct(const PointCloud<Dim>& cloud, const Stencils& near) {
+  const Points<Dim>& nodes = cloud.nodes;
   for (int i = 0; i < near.size(); ++i) {
     for (int other : near[i]) {
-      if (other == i) continue;
+      if (other == i || cloud.part_of(i) != cloud.part_of(other)) continue;
       throw CaseError(fmt::format(
           "nodes {} and {} coincide: {} and {} are {:.3g} apart; remove one of them",
           std::min(i, other), std::max(i, other), format_point(nodes.col(std::min(i, other))),
@@ -42,7 +48,33 @@ void check_distinct(const Points<Dim>& nodes) {
   }
 }
 
+/// The other nodes at the place of each node on an interface.
+template <int Dim>
+Stencils find_twins(const PointCloud<Dim>& cloud, const Stencils& near) {
+  Stencils twins;
+  std::vector<int> others;
+  for (int i = 0; i < near.size(); ++i) {
+    others.clear();
+    const bool is_met = !cloud.interfaces_of(i).empty();
+    for (int other : near[i]) {
+      if (is_met && other != i && !cloud.interfaces_of(other).empty()) others.push_back(other);
+    }
+    std::sort(others.begin(), others.end());
+    twins.push_back(others);
+  }
+  return twins;
+}
+
 }  // namespace
+
+template <int Dim>
+int PointCloud<Dim>::part_of(int node) const {
+  if (parts.empty()) return 0;
+  const auto after =
+      std::upper_bound(parts.begin(), parts.end(), node,
+                       [](int id, const Part<Dim>& part) { return id < part.first; });
+  return static_cast<int>(after - parts.begin()) - 1;
+}
 
 template <int Dim>
 double PointCloud<Dim>::spacing() const {
@@ -56,13 +88,53 @@ Sites<Dim> sites_of_cloud(const PointCloud<Dim>& cloud) {
   for (int i = 0; i < cloud.size(); ++i) {
     if (cloud.is_boundary(i)) sites.anchor_zone[i] = Zone::boundary;
   }
+  for (const Part<Dim>& part : cloud.parts) {
+    sites.node_part.insert(sites.node_part.end(), part.count,
+                           static_cast<int>(sites.part_blocks.size()));
+    sites.part_blocks.push_back(part.block);
+  }
+  sites.anchor_part = sites.node_part;
   return sites;
+}
+
+template <int Dim>
+PointCloud<Dim> cloud_of_part(const PointCloud<Dim>& cloud, int part) {
+  const Part<Dim> whole{0, cloud.size(), 0, cloud.block};
+  const Part<Dim>& from = cloud.parts.empty() ? whole : cloud.parts[part];
+  PointCloud<Dim> result;
+  result.nodes = cloud.nodes.middleCols(from.first, from.count);
+  for (int i = from.first; i < from.first + from.count; ++i) {
+    const auto marks = cloud.marks_of(i);
+    result.marks.insert(result.marks.end(), marks.begin(), marks.end());
+    result.mark_offsets.push_back(static_cast<int>(result.marks.size()));
+  }
+  result.block = from.block;
+  result.measure = cloud.measure;
+  return result;
+}
+
+template <int Dim>
+void check_interfaces(const PointCloud<Dim>& cloud) {
+  for (int i = 0; i < cloud.size(); ++i) {
+    if (cloud.interfaces_of(i).empty() || !cloud.twins_of(i).empty()) continue;
+    throw CaseError(
+        fmt::format("node {} at {} lies on an interface but meets no node of another part; place "
+                    "the same nodes on both sides, as grid and blocks do",
+                    i, format_point(cloud.nodes.col(i))));
+  }
+}
+
+template <int Dim>
+void CloudBuilder<Dim>::begin_part(int patch, std::optional<IndexBlock<Dim>> block) {
+  parts_.push_back({size(), 0, patch, std::move(block)});
 }
 
 template <int Dim>
 void CloudBuilder<Dim>::add(const Point<Dim>& x, std::vector<BoundaryMark<Dim>> marks) {
   const auto by_side = [](const auto& a, const auto& b) { return a.side < b.side; };
-  const auto same_side = [](const auto& a, const auto& b) { return a.side == b.side; };
+  const auto same_side = [](const auto& a, const auto& b) {
+    return a.side == b.side && (a.side != interface_side || a.normal == b.normal);
+  };
   std::stable_sort(marks.begin(), marks.end(), by_side);
   marks.erase(std::unique(marks.begin(), marks.end(), same_side), marks.end());
   nodes_.push_back(x);
@@ -83,10 +155,18 @@ PointCloud<Dim> CloudBuilder<Dim>::finish(double measure) {
     cloud.marks.insert(cloud.marks.end(), marks_[i].begin(), marks_[i].end());
     cloud.mark_offsets.push_back(static_cast<int>(cloud.marks.size()));
   }
+  for (Part<Dim>& part : parts_) {
+    const bool is_last = &part == &parts_.back();
+    part.count = (is_last ? size() : (&part + 1)->first) - part.first;
+  }
+  cloud.parts = std::move(parts_);
   nodes_.clear();
   marks_.clear();
+  parts_.clear();
   check_finite<Dim>(cloud.nodes);
-  check_distinct<Dim>(cloud.nodes);
+  const Stencils near = coincident_nodes<Dim>(cloud.nodes);
+  check_distinct<Dim>(cloud, near);
+  if (!cloud.parts.empty()) cloud.twins = find_twins<Dim>(cloud, near);
   return cloud;
 }
 
@@ -96,6 +176,12 @@ template struct PointCloud<3>;
 template Sites<1> sites_of_cloud(const PointCloud<1>&);
 template Sites<2> sites_of_cloud(const PointCloud<2>&);
 template Sites<3> sites_of_cloud(const PointCloud<3>&);
+template void check_interfaces(const PointCloud<1>&);
+template PointCloud<1> cloud_of_part(const PointCloud<1>&, int);
+template void check_interfaces(const PointCloud<2>&);
+template PointCloud<2> cloud_of_part(const PointCloud<2>&, int);
+template void check_interfaces(const PointCloud<3>&);
+template PointCloud<3> cloud_of_part(const PointCloud<3>&, int);
 template class CloudBuilder<1>;
 template class CloudBuilder<2>;
 template class CloudBuilder<3>;

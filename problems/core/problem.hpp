@@ -22,6 +22,7 @@ template <int Dim>
 struct Place {
   Point<Dim> x;
   int patch = 0;
+  double spacing = 0;  ///< of the cloud, for data that are differences; 0 where there is none
 };
 
 /// A node as a problem sees it when it states its boundary conditions.
@@ -31,8 +32,9 @@ struct Node {
   Point<Dim> x;
   std::span<const BoundaryMark<Dim>> marks;  ///< empty inside
   int patch = 0;
+  double spacing = 0;  ///< of the cloud
 
-  Place<Dim> place() const { return {x, patch}; }
+  Place<Dim> place() const { return {x, patch, spacing}; }
 
   bool on(int side) const {
     for (const BoundaryMark<Dim>& mark : marks) {
@@ -45,7 +47,7 @@ struct Node {
 /// A node of a cloud.
 template <int Dim>
 Node<Dim> node_of(const PointCloud<Dim>& cloud, int id) {
-  return {id, cloud.nodes.col(id), cloud.marks_of(id), cloud.patch_of(id)};
+  return {id, cloud.nodes.col(id), cloud.marks_of(id), cloud.patch_of(id), cloud.spacing()};
 }
 
 /// What every problem has: a domain.

@@ -10,6 +10,7 @@
 #include "problems/core/layout.hpp"
 #include "problems/core/visibility.hpp"
 #include "problems/core/voronoi.hpp"
+#include "studies/support/part_stages.hpp"
 #include "studies/support/case_map.hpp"
 #include "studies/support/vtk.hpp"
 
@@ -101,6 +102,10 @@ template <int Dim>
 void choose_stencils(Discretisation<Dim>& scene, const Domain<Dim>& domain,
                      const Choices<Dim>& choices, const RunOptions& options,
                      const StageClock& clock, StageTimes& times) {
+  if (has_parts(scene)) {
+    walk_parts<Dim>(scene, domain, choices, options, clock, times, Upto::stencils);
+    return;
+  }
   if (const std::string why = choices.method->unsupported(scene.derivatives); !why.empty()) {
     throw SkipCase(why);
   }
@@ -140,6 +145,10 @@ template <int Dim>
 void compute_weights(Discretisation<Dim>& scene, const Domain<Dim>& domain,
                      const Choices<Dim>& choices, const RunOptions& options,
                      const StageClock& clock, StageTimes& times) {
+  if (has_parts(scene)) {
+    walk_parts<Dim>(scene, domain, choices, options, clock, times, Upto::weights);
+    return;
+  }
   choose_stencils<Dim>(scene, domain, choices, options, clock, times);
   scene.weights = clock.time(times.weights, [&] {
     return choices.method->weights(scene.sites, scene.stencils, scene.derivatives);
@@ -161,6 +170,9 @@ std::unique_ptr<Discretisation<Dim>> discretise(const SteadyProblem<Dim>& proble
   Discretisation<Dim>& scene = *made;
   scene.cloud =
       clock.time(times.cloud, [&] { return make_case_cloud<Dim>(problem.domain(), key, options); });
+  if (!scene.cloud.parts.empty() && !form->joins_parts()) {
+    throw SkipCase("the form does not join blocks or patches; take collocation with its defaults");
+  }
   clock.time(times.prepare, [&] {
     Plan<Dim> plan = form->plan(problem, scene.cloud, *choices.method);
     scene.derivatives = plan.derivatives;

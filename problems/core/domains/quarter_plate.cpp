@@ -68,6 +68,14 @@ std::vector<BoundaryPiece<2>> QuarterPlate::pieces() const {
           {left, [a](const Parameter& t) { return Point2(0, a + (1 - a) * t[0]); }}};
 }
 
+std::vector<Block<2>> QuarterPlate::blocks() const {
+  const auto half = [this](int which) {
+    return [this, which](const Point2& unit) { return map(Point2((which + unit[0]) / 2, unit[1])); };
+  };
+  return {{half(0), {bottom, interface_side, hole, right}},
+          {half(1), {interface_side, left, hole, top}}};
+}
+
 double QuarterPlate::spacing(const Point2& x, int level) const {
   return std::numbers::pi / 2 / (level - 1) * a_ * std::pow(std::max(x.norm(), a_) / a_, 1.5);
 }

@@ -32,6 +32,8 @@ class QuarterPlate final : public Domain<2> {
   /// Exact but for a point outside that is nearest to a corner, where it is too small.
   double distance(const Point<2>& x) const override;
   std::vector<BoundaryPiece<2>> pieces() const override;
+  /// Two, split at 45 degrees, where the outer sides meet and the map has a kink.
+  std::vector<Block<2>> blocks() const override;
   /// c a (r/a)^1.5 with c = (pi/2) / (n-1): n nodes on the arc.
   double spacing(const Point<2>& x, int level) const override;
   std::vector<Feature<2>> features() const override;

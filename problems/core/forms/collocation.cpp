@@ -5,6 +5,7 @@
 #include "methods/core/neighbours.hpp"
 #include "problems/core/form.hpp"
 #include "problems/core/ghosts.hpp"
+#include "problems/core/interface_rows.hpp"
 #include "problems/core/mirror.hpp"
 
 namespace strongpoint {
@@ -43,7 +44,9 @@ class CollocationRows {
     for (int i = 0; i < cloud_.size(); ++i) {
       const Node<Dim> node = node_of(cloud_, i);
       write.at(i);
-      if (node.marks.empty()) {
+      if (!cloud_.twins_of(i).empty()) {
+        write_interface(*flux_problem(problem_), cloud_, i, derivatives, write);
+      } else if (node.marks.empty()) {
         problem_.governing(node.place(), write);
       } else if (lies_on_planes_only<Dim>(node.marks, planes_)) {
         write_on_planes(node, scratch, write);
@@ -192,14 +195,19 @@ class Collocation final : public Form<Dim> {
            "state; boundary=plain can serve";
   }
 
+  bool joins_parts() const override {
+    return boundary_ == Boundary::plain && symmetry_ != Symmetry::images;
+  }
+
   Plan<Dim> plan(const SteadyProblem<Dim>& problem, const PointCloud<Dim>& cloud,
                  const Method<Dim>& method) const override {
     Plan<Dim> plan;
     plan.sites = sites_of_cloud<Dim>(cloud);
     plan.derivatives = derivatives_of(problem, cloud, method);
-    const Symmetry wanted = symmetry_ == Symmetry::by_default && boundary_ == Boundary::ghost
-                                ? Symmetry::images
-                                : symmetry_;
+    const Symmetry by_default = boundary_ == Boundary::ghost ? Symmetry::images
+                                : cloud.parts.empty()        ? Symmetry::by_default
+                                                             : Symmetry::rows;
+    const Symmetry wanted = symmetry_ == Symmetry::by_default ? by_default : symmetry_;
     const std::vector<SymmetryPlane> planes = mirrored_planes(problem, wanted);
     skip_unread(problem, cloud, method, planes, plan.sites);
     Ghosts<Dim> ghosts;
@@ -233,6 +241,9 @@ class Collocation final : public Form<Dim> {
     for (int i = 0; i < cloud.size(); ++i) {
       all.merge(without_values(problem.derivatives(cloud.marks_of(i))));
     }
+    if (!cloud.parts.empty()) {
+      all.merge(without_values(interface_derivatives(interface_problem(problem))));
+    }
     return all;
   }
 
@@ -247,7 +258,7 @@ class Collocation final : public Form<Dim> {
     if (!method.promises().interpolates || problem.measured_derivatives().size() > 0) return;
     for (int i = 0; i < cloud.size(); ++i) {
       const std::span<const BoundaryMark<Dim>> marks = cloud.marks_of(i);
-      if (lies_on_planes_only<Dim>(marks, planes)) continue;
+      if (lies_on_planes_only<Dim>(marks, planes) || !cloud.twins_of(i).empty()) continue;
       if (reads_value_only(problem, marks)) sites.wanted[i] = 0;
     }
   }
