@@ -10,8 +10,8 @@
 #include "problems/core/layout.hpp"
 #include "problems/core/visibility.hpp"
 #include "problems/core/voronoi.hpp"
-#include "studies/support/part_stages.hpp"
 #include "studies/support/case_map.hpp"
+#include "studies/support/part_stages.hpp"
 #include "studies/support/vtk.hpp"
 
 extern "C" {
@@ -202,8 +202,7 @@ CaseResult solve_steady(const SteadyProblem<Dim>& problem, const CaseKey& key,
   });
   if (is_iterative(key.solver)) {
     clock.time(times.solve, [&] {
-      system.order = order_along(
-          scene.sites.nodes.row(0).head(scene.unknowns.count).transpose());
+      system.order = order_along(scene.sites.nodes.row(0).head(scene.unknowns.count).transpose());
     });
   }
   const LinearSolution linear = clock.time(times.solve, [&] { return solve(system, key.solver); });

@@ -70,7 +70,8 @@ std::vector<BoundaryPiece<2>> QuarterPlate::pieces() const {
 
 std::vector<Block<2>> QuarterPlate::blocks() const {
   const auto half = [this](int which) {
-    return [this, which](const Point2& unit) { return map(Point2((which + unit[0]) / 2, unit[1])); };
+    return
+        [this, which](const Point2& unit) { return map(Point2((which + unit[0]) / 2, unit[1])); };
   };
   return {{half(0), {bottom, interface_side, hole, right}},
           {half(1), {interface_side, left, hole, top}}};
