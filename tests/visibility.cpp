@@ -54,9 +54,6 @@ Point<2> random_point(std::mt19937_64& generator) {
   return {x, uniform01(generator)};
 }
 
-/// The rest of the unit square outside the disc r < a about the origin.
-const Domain<2>& plate(const NamedProblem& problem) { return std::get<1>(problem.made)->domain(); }
-
 TEST(Visibility, SegmentsThatCrossASlitOfAnyWidthAreBlocked) {
   std::mt19937_64 generator(5);
   for (const double width : {0.0, 1e-12, 1e-4, 0.01, 0.1}) {
@@ -116,7 +113,7 @@ TEST(Visibility, NodesOnOppositeFlanksOfASlitNeverSeeEachOther) {
 
 TEST(Visibility, ChordsOfAHoleAreSeenAlongUpToFourFifthsOfItsRadius) {
   const NamedProblem problem = make_problem("plate_hole[a=0.2]");
-  const Domain<2>& domain = plate(problem);
+  const Domain<2>& domain = std::get<1>(problem.made)->domain();
   for (const double chord : {0.01, 0.1, 0.5, 0.75, 0.85, 1.2}) {
     const double angle = 2 * std::asin(0.5 * chord);
     const Point<2> a(0.2 * std::cos(0.1), 0.2 * std::sin(0.1));
@@ -133,6 +130,17 @@ TEST(Visibility, NodesOfAFaceDoNotSeeAcrossTheMouthOfASlitInIt) {
       EXPECT_TRUE(sees<2>(domain, Point<2>(0.5 - reach, 0), Point<2>(0.47 + reach, 0))) << width;
     }
   }
+}
+
+TEST(Visibility, PlacesOutsideStandForTheBoundaryNextToThem) {
+  const SlitSquare domain(0.3);
+  const Point<2> left(0.3, 0.8);
+  const Point<2> right(0.7, 0.8);
+  const Point<2> ghost(0.38, 0.75);  // of the left flank
+  EXPECT_TRUE(sees<2>(domain, left, ghost));
+  EXPECT_FALSE(sees<2>(domain, right, ghost));
+  EXPECT_TRUE(sees<2>(domain, right, Point<2>(1.05, 0.9)));
+  EXPECT_FALSE(sees<2>(domain, left, Point<2>(1.05, 0.9)));
 }
 
 /// A cloud of the slit square with stencils of a rule.
@@ -190,6 +198,38 @@ TEST(VisibleRule, KeepsStencilsOnTheirSideOfASlitAndFull) {
   EXPECT_GT(across, 100) << "without the rule many stencils reach across";
   EXPECT_GT(changed, 40);
   EXPECT_LT(changed, base.size() / 4) << "only those at the slit change";
+}
+
+/// The field at the end of a crack, sqrt(r) sin(theta / 2) about the slit's tip with the cut along
+/// the slit: smooth away from the tip in what is left of the square, opposite on both flanks.
+double crack_field(const Point<2>& x) {
+  const Point<2> from_tip = x - Point<2>(0.5, 0.5);
+  const double angle = std::atan2(from_tip[0], -from_tip[1]);  // pi and -pi on the flanks
+  return std::sqrt(from_tip.norm()) * std::sin(angle / 2);
+}
+
+TEST(VisibleRule, LetsDerivativesNextToASlitBeRight) {
+  const Slit slit(0.01, 24);
+  const auto method = make_method<2>("lsfdm").made;
+  std::vector<double> worst;
+  for (const char* rule : {"nearest", "visible"}) {
+    const Weights weights = method->weights(slit.sites, slit.select(rule), {{1, 0}, {0, 1}});
+    worst.push_back(0);
+    for (int i = 0; i < slit.cloud.size(); ++i) {
+      const Point<2> x = slit.cloud.nodes.col(i);
+      const double radius = (x - Point<2>(0.5, 0.5)).norm();
+      if (radius < 0.25) continue;
+      Point<2> gradient = Point<2>::Zero();
+      const auto row = weights.row(i);
+      for (int j = 0; j < row.cols(); ++j) {
+        gradient += row.col(j) * crack_field(slit.cloud.nodes.col(weights.nodes(i)[j]));
+      }
+      // The exact gradient has the length 1 / (2 sqrt(r)) everywhere.
+      worst.back() = std::max(worst.back(), std::abs(gradient.norm() * 2 * std::sqrt(radius) - 1));
+    }
+  }
+  EXPECT_GT(worst[0], 10) << "the jump across the slit over its width, some h / 4";
+  EXPECT_LT(worst[1], 0.02) << "(h / r)^2 of second order";
 }
 
 TEST(VisibleRule, TakesTheNearestNodesThatAreSeen) {

@@ -130,11 +130,28 @@ class Walk {
   }
 };
 
+/// A place outside moved to the boundary, along the gradient of the distance.
+template <int Dim>
+Point<Dim> moved_inside(const Domain<Dim>& domain, const Point<Dim>& x, double length) {
+  const double outside = domain.distance(x);
+  if (outside <= round_off * length) return x;
+  Point<Dim> gradient;
+  for (int c = 0; c < Dim; ++c) {
+    const Point<Dim> step = difference_step * length * Point<Dim>::Unit(c);
+    gradient[c] = domain.distance(x + step) - domain.distance(x - step);
+  }
+  return gradient.norm() > 0 ? Point<Dim>(x - outside * gradient.normalized()) : x;
+}
+
 }  // namespace
 
 template <int Dim>
 bool sees(const Domain<Dim>& domain, const Point<Dim>& a, const Point<Dim>& b) {
-  return Walk<Dim>(domain, a, b, Line::given).stays_inside();
+  if (Walk<Dim>(domain, a, b, Line::given).stays_inside()) return true;
+  const double length = (b - a).norm();
+  const Point<Dim> from = moved_inside(domain, a, length);
+  const Point<Dim> to = moved_inside(domain, b, length);
+  return (from != a || to != b) && Walk<Dim>(domain, from, to, Line::given).stays_inside();
 }
 
 template <int Dim>

@@ -11,8 +11,9 @@ namespace strongpoint {
 /// on the side that it left by. Contact shorter than a sixteenth of the segment between its ends
 /// counts as crossing, so that slits without width block, and so do corners that are just touched.
 /// Along a boundary the segment is looked at a second time, 1/64 of its length further inside,
-/// where it meets slits whose mouth it passes. In a convex domain all places see each other. Takes
-/// 1 distance in the interior, some 20 from a boundary node and about 200 along a boundary.
+/// where it meets slits whose mouth it passes. A place outside, such as a ghost node's, stands for
+/// the nearest one of the boundary. In a convex domain all places see each other. Takes 1 distance
+/// in the interior, some 20 from a boundary node and about 200 along a boundary.
 template <int Dim>
 bool sees(const Domain<Dim>& domain, const Point<Dim>& a, const Point<Dim>& b);
 
