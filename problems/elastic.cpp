@@ -5,6 +5,7 @@
 
 #include "methods/core/error.hpp"
 #include "problems/core/elastic_conditions.hpp"
+#include "problems/core/elastic_fields.hpp"
 #include "problems/core/elastic_problem.hpp"
 #include "problems/core/mesh_file.hpp"
 
@@ -57,7 +58,11 @@ class Elastic final : public ElasticProblem<Dim> {
   /// stresses are those of that node.
   std::vector<double> measure(const Solution<Dim>& solution) const override {
     const Points<Dim> displacement = solution.fields.topRows(Dim);
-    const Eigen::VectorXd equivalent = von_mises(this->nodal_stresses(solution));
+    const Eigen::MatrixXd stresses = this->nodal_stresses(solution);
+    Eigen::VectorXd equivalent(solution.cloud.size());
+    for (int n = 0; n < solution.cloud.size(); ++n) {
+      equivalent[n] = von_mises<Dim>(stresses.col(n), across());
+    }
     std::array<Eigen::VectorXd, Dim * Dim> slopes;
     for (int d = 0; d < Dim * Dim; ++d) {
       slopes[d] = solution.derivative(d / Dim, partial<Dim>(d % Dim));
@@ -77,6 +82,12 @@ class Elastic final : public ElasticProblem<Dim> {
     return values;
   }
 
+  std::vector<NodeArray> derived_fields(const Solution<Dim>& solution) const override {
+    const std::vector<Lame> materials(static_cast<std::size_t>(solution.cloud.size()), across());
+    return elastic_arrays<Dim>(this->fields(), materials,
+                               {solution.fields, this->nodal_stresses(solution)}, std::nullopt);
+  }
+
  private:
   ElasticCase case_;
   MeshDomain<Dim> domain_;
@@ -88,23 +99,10 @@ class Elastic final : public ElasticProblem<Dim> {
     return conditions_.sides[side].displacement[field];
   }
 
-  /// Von Mises' stresses from the components at the nodes, (N); in plane strain with sigma_zz =
-  /// nu (sigma_xx + sigma_yy).
-  Eigen::VectorXd von_mises(const Eigen::MatrixXd& stress) const {
-    Eigen::VectorXd result(stress.cols());
-    for (Eigen::Index n = 0; n < stress.cols(); ++n) {
-      const bool is_strain = case_.state == PlaneState::strain;
-      Eigen::Vector3d normal(stress(0, n), stress(1, n), 0);
-      if (Dim == 3) {
-        normal[2] = stress(2, n);
-      } else if (is_strain) {
-        normal[2] = case_.poisson * (normal[0] + normal[1]);
-      }
-      const double shear = stress.col(n).tail(stress.rows() - Dim).squaredNorm();
-      const Eigen::Vector3d deviator = normal.array() - normal.mean();
-      result[n] = std::sqrt(1.5 * deviator.squaredNorm() + 3 * shear);
-    }
-    return result;
+  /// The material by which von Mises' stress knows the stress across the plane: with lambda = 0
+  /// there is none, as in plane stress.
+  Lame across() const {
+    return case_.state == PlaneState::stress ? Lame{0, material_.mu} : material_;
   }
 };
 

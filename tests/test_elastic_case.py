@@ -20,7 +20,7 @@ class BracketMeshedByGmsh(unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory()
         cls.place = pathlib.Path(cls.folder.name)
         cls.mesh = cls.place / "bracket.msh"
-        subprocess.run(["gmsh", "-2", "-format", "msh2", "-o", str(cls.mesh), str(DATA / "bracket.geo")],
+        subprocess.run(["gmsh", "-2", "-format", "msh2", "-clscale", "0.5", "-o", str(cls.mesh), str(DATA / "bracket.geo")],
                        check=True, capture_output=True)
         cls.case = cls.place / "bracket.toml"
         shutil.copy(DATA / "bracket.toml", cls.case)
@@ -55,22 +55,27 @@ class BracketMeshedByGmsh(unittest.TestCase):
         self.assertGreater(values["max_displacement"], abs(values["uy_tip"]))
         self.assertGreater(values["max_von_mises"], values["von_mises_middle"])
 
-    def test_methods_agree_with_finite_elements_on_the_mesh_s_own_nodes(self):
-        rows = self.rows("--method", "lsfdm,rbf_fd[degree=3],gmls")
+    def test_flux_balances_agree_with_finite_elements_on_the_mesh_s_own_nodes(self):
+        rows = self.rows("--method", "lsfdm,rbf_fd[degree=4]", "--form", "flux")
         self.assertEqual({row["cloud"] for row in rows}, {"file"})
-        self.assert_tip(rows, "lsfdm", 0.05)
-        self.assert_tip(rows, "rbf_fd[degree=3]", 0.05)
+        self.assert_tip(rows, "lsfdm", 0.005)
+        self.assert_tip(rows, "rbf_fd[degree=4]", 0.005)
 
-    def test_clouds_of_any_level_converge_to_finite_elements(self):
-        rows = self.rows("--method", "rbf_fd[degree=3]", "--cloud", "scattered", "--levels", "61,121")
-        errors = [abs(float(row["value"]) / self.tip[1] - 1) for row in rows if row["quantity"] == "uy_tip"]
-        self.assertLess(errors[1], 0.03)
+    def test_collocation_agrees_as_well_as_it_can(self):
+        # Tractions are the weak spot of plain collocation: second order is 4 % off, third 0.5 %.
+        rows = self.rows("--method", "lsfdm,lsfdm[order=3]")
+        self.assert_tip(rows, "lsfdm", 0.06)
+        self.assert_tip(rows, "lsfdm[order=3]", 0.02)
+
+    def test_other_clouds_fill_the_same_outline(self):
+        rows = self.rows("--method", "lsfdm", "--form", "flux", "--cloud", "scattered", "--levels", "61")
+        self.assert_tip(rows, "lsfdm", 0.02)
 
     def test_fields_are_written_for_paraview(self):
         self.rows("--method", "lsfdm", "--vtk", self.place / "maps")
         file, = (self.place / "maps").glob("*.vtu")
         names = {array.get("Name") for array in xml.etree.ElementTree.parse(file).iter("DataArray")}
-        self.assertTrue({"u", "v", "zone"} <= names or "displacement" in names, names)
+        self.assertLessEqual({"displacement", "sigma_xx", "von_mises", "zone"}, names)
 
     def refusal(self, case):
         done = run("convergence", "--problem", f"elastic[case={case}]")
@@ -107,6 +112,65 @@ class BracketMeshedByGmsh(unittest.TestCase):
         rows = self.rows("--method", "lsfdm", "--cloud", "grid", "--levels", "9")
         self.assertEqual({row["status"] for row in rows}, {"skipped"})
         self.assertIn("--cloud file", rows[0]["reason"])
+
+
+class PlateWithASlit(unittest.TestCase):
+    """Pulled at both sides, a slit opens; stencils that reach across hold it together."""
+
+    SCRIPT = """
+w = 0.004; h = 0.03;
+Point(1) = {0, 0, 0, h}; Point(2) = {1, 0, 0, h}; Point(3) = {1, 1, 0, h}; Point(4) = {0.5 + w, 1, 0, h};
+Point(5) = {0.5 + w, 0.5, 0, h / 3}; Point(6) = {0.5 - w, 0.5, 0, h / 3};
+Point(7) = {0.5 - w, 1, 0, h}; Point(8) = {0, 1, 0, h};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 5};
+Line(5) = {5, 6}; Line(6) = {6, 7}; Line(7) = {7, 8}; Line(8) = {8, 1};
+Curve Loop(1) = {1:8}; Plane Surface(1) = {1};
+Physical Curve("bottom") = {1}; Physical Curve("right") = {2}; Physical Curve("left") = {8};
+Physical Curve("top_right") = {3}; Physical Curve("slit_right") = {4}; Physical Curve("tip") = {5};
+Physical Curve("slit_left") = {6}; Physical Curve("top_left") = {7};
+Physical Surface("plate") = {1};
+"""
+    CASE = """
+mesh = "slit.msh"
+[material]
+young = 1
+poisson = 0.3
+[support.bottom]
+ux = 0
+uy = 0
+[load.left]
+traction = [-0.01, 0]
+[load.right]
+traction = [0.01, 0]
+[probe]
+left = [0, 1]
+right = [1, 1]
+"""
+
+    def test_visible_stencils_let_it_open(self):
+        with tempfile.TemporaryDirectory() as folder:
+            place = pathlib.Path(folder)
+            (place / "slit.geo").write_text(self.SCRIPT, encoding="utf-8")
+            (place / "slit.toml").write_text(self.CASE, encoding="utf-8")
+            subprocess.run(["gmsh", "-2", "-format", "msh2", str(place / "slit.geo")], check=True,
+                           capture_output=True)
+            plate = PlaneElasticity(place / "slit.msh", 1, 0.3, "plane_strain")
+            for axis in range(2):
+                plate.hold("bottom", axis)
+            plate.pull("left", [-0.01, 0])
+            plate.pull("right", [0.01, 0])
+            displacements = plate.solve()
+            exact = [plate.at(displacements, corner)[0] for corner in ((0, 1), (1, 1))]
+            done = run("convergence", "--problem", f"elastic[case={place / 'slit.toml'}]", "--method", "lsfdm",
+                       "--stencil", "nearest,visible", "--form", "flux", "--csv", "-")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        errors = {}
+        for row in csv.DictReader(io.StringIO(done.stdout)):
+            for value, name in zip(exact, ("ux_left", "ux_right")):
+                if row["quantity"] == name:
+                    errors.setdefault(row["stencil"], []).append(abs(float(row["value"]) / value - 1))
+        self.assertLess(max(errors["visible"]), 0.02)
+        self.assertGreater(max(errors["nearest"]), 0.1)
 
 
 if __name__ == "__main__":
