@@ -13,6 +13,7 @@ template <int Dim>
 BoundaryFacet<Dim> oriented(std::array<int, Dim> corners, const Points<Dim>& vertices, int side,
                             const Point<Dim>& outwards) {
   std::vector<Point<Dim>> places;
+  places.reserve(Dim);
   for (int corner : corners) places.push_back(vertices.col(corner));
   Point<Dim> area = area_vector<Dim>(places);
   if (area.dot(outwards) < 0) {
@@ -82,6 +83,7 @@ BoundaryMesh<Dim> boundary_of(const Topology<Dim>& topology) {
   for (const auto& [tags, facet] : topology.facets) {
     if (facet.elements != 1) continue;
     std::vector<int> corners;
+    corners.reserve(facet.corners.size());
     for (Tag tag : facet.corners) corners.push_back(numbers.at(tag));
     for (std::size_t i = Dim - 1; i < corners.size(); ++i) {  // a fan around the first
       std::array<int, Dim> own{};

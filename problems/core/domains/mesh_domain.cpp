@@ -14,7 +14,7 @@ constexpr double weight_tolerance = 1e-9;
 
 /// Which of a facet's normals belongs to a place on it: a corner's, an edge's or its own.
 template <int Dim>
-std::size_t part_of(const std::array<double, Dim>& weights) {
+int part_of(const std::array<double, Dim>& weights) {
   int absent = -1;
   int count = 0;
   int present = 0;
@@ -26,9 +26,9 @@ std::size_t part_of(const std::array<double, Dim>& weights) {
       absent = i;
     }
   }
-  if (count == 1) return static_cast<std::size_t>(present);
-  if (Dim == 3 && count == 2) return static_cast<std::size_t>(3 + absent);
-  return std::tuple_size_v<FacetNormals<Dim>> - 1;
+  if (count == 1) return present;
+  if (Dim == 3 && count == 2) return 3 + absent;
+  return static_cast<int>(std::tuple_size_v<FacetNormals<Dim>>) - 1;
 }
 
 /// A polyline over [0, 1] by arc length, both ends exact.
