@@ -55,7 +55,8 @@ class ElasticSystem {
     const Derivatives<Dim> derivatives = Derivatives<Dim>::between_orders(1, 2);
     const Weights weights = method->weights(sites, stencils, derivatives);
     const int nodes = static_cast<int>(nodes_.cols());
-    KnownSystem made{assemble(equations(derivatives), weights, nodes, Dim), smooth_field()};
+    KnownSystem made{assemble(equations(derivatives), weights, {.count = nodes}, Dim),
+                     smooth_field()};
     multiply(made.system, made.solution, made.system.right_hand_side);
     made.system.order = order_along(nodes_.row(0).transpose());
     return made;
