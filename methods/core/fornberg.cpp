@@ -5,8 +5,16 @@
 namespace strongpoint {
 
 Eigen::MatrixXd fornberg_weights(std::span<const double> nodes, double x, int order) {
+  Eigen::MatrixXd weights(order + 1, static_cast<Eigen::Index>(nodes.size()));
+  fornberg_weights(nodes, x, weights);
+  return weights;
+}
+
+void fornberg_weights(std::span<const double> nodes, double x,
+                      Eigen::Ref<Eigen::MatrixXd> weights) {
   const int n = static_cast<int>(nodes.size());
-  Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(order + 1, n);
+  const int order = static_cast<int>(weights.rows()) - 1;
+  weights.setZero();
   weights(0, 0) = 1;
   double before = 1;  // product of the last node's distances from those before it
   for (int i = 1; i < n; ++i) {
@@ -28,7 +36,6 @@ Eigen::MatrixXd fornberg_weights(std::span<const double> nodes, double x, int or
     }
     before = product;
   }
-  return weights;
 }
 
 }  // namespace strongpoint

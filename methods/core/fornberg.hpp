@@ -11,5 +11,7 @@ namespace strongpoint {
 /// Source: Fornberg 1988, Generation of finite difference formulas on arbitrarily spaced grids,
 /// Math. Comp. 51, 699-706, eqs. (3.8)-(3.12).
 Eigen::MatrixXd fornberg_weights(std::span<const double> nodes, double x, int order);
+/// The same into `weights`, (order + 1, n), without allocating.
+void fornberg_weights(std::span<const double> nodes, double x, Eigen::Ref<Eigen::MatrixXd> weights);
 
 }  // namespace strongpoint
