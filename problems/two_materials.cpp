@@ -124,18 +124,22 @@ class TwoMaterials final : public ElasticProblem<2> {
     return {"displacement_error", "stress_error"};
   }
   std::vector<double> measure(const Solution<2>& solution) const override {
-    const int count = solution.cloud.size();
-    Points<2> exact(2, count);
-    for (int i = 0; i < count; ++i) {
-      const Point2 x = solution.cloud.nodes.col(i);
-      exact.col(i) << materials[0].along() * std::min(x[0], 1.0) +
-                          materials[1].along() * std::max(x[0] - 1, 0.0),
+    const std::optional<ElasticNodes> exact = exact_at_nodes(solution.cloud);
+    return {relative_error(solution.fields.topRows(2), exact->fields),
+            relative_error(nodal_stresses(solution), exact->stresses)};
+  }
+
+ protected:
+  std::optional<ElasticNodes> exact_at_nodes(const PointCloud<2>& cloud) const override {
+    ElasticNodes exact{Eigen::MatrixXd(2, cloud.size()), Eigen::MatrixXd::Zero(3, cloud.size())};
+    for (int i = 0; i < cloud.size(); ++i) {
+      const Point2 x = cloud.nodes.col(i);
+      exact.fields.col(i) << materials[0].along() * std::min(x[0], 1.0) +
+                                 materials[1].along() * std::max(x[0] - 1, 0.0),
           materials[0].across() * x[1];
+      exact.stresses(0, i) = 1;
     }
-    Eigen::MatrixXd stresses = Eigen::MatrixXd::Zero(3, count);
-    stresses.row(0).setOnes();
-    return {relative_error(solution.fields.topRows(2), exact),
-            relative_error(nodal_stresses(solution), stresses)};
+    return exact;
   }
 
  private:
