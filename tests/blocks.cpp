@@ -113,6 +113,14 @@ TEST(Blocks, AreOneCloudWhereTheDomainHasOneBlock) {
   EXPECT_EQ(cloud.marks_of(0).size(), 3U);
 }
 
+TEST(Blocks, AreCutIntoCellsThatShrinkTowardsTheEnds) {
+  EXPECT_EQ(cell_ends(4, 1), (std::vector<double>{0, 0.25, 0.5, 0.75, 1}));
+  const std::vector<double> ends = cell_ends(3, 0.25);
+  EXPECT_NEAR(ends[1], 1.0 / 6, round_off);
+  EXPECT_NEAR(ends[2], 5.0 / 6, round_off);
+  EXPECT_EQ(ends[3], 1);
+}
+
 TEST(Blocks, RefuseSplitsThatAreNone) {
   for (const char* split : {"0", "x", "2x", "1x2x3", "-1", "1.5"}) {
     EXPECT_THROW(plate_cloud(std::string("blocks[split=") + split + "]", 5), UsageError) << split;

@@ -18,17 +18,20 @@ template <int Dim>
 struct Cell {
   const Block<Dim>& block;
   std::array<int, Dim> index;  ///< along each axis
-  const std::array<int, Dim>& split;
+  const std::array<std::vector<double>, Dim>& ends;
 
   /// The block's unit coordinates; cells that share a face get the same bits on it.
   Point<Dim> unit(const Point<Dim>& own) const {
     Point<Dim> x;
-    for (int c = 0; c < Dim; ++c) x[c] = (index[c] + own[c]) / split[c];
+    for (int c = 0; c < Dim; ++c) {
+      x[c] = (1 - own[c]) * ends[c][index[c]] + own[c] * ends[c][index[c] + 1];
+    }
     return x;
   }
   int side(int face) const {
     const int c = face / 2;
-    const bool is_outer = face % 2 == 0 ? index[c] == 0 : index[c] == split[c] - 1;
+    const int last = static_cast<int>(ends[c].size()) - 2;
+    const bool is_outer = index[c] == (face % 2 == 0 ? 0 : last);
     return is_outer ? block.sides[face] : interface_side;
   }
   std::vector<BoundaryMark<Dim>> marks(const Domain<Dim>& domain, const Point<Dim>& own,
@@ -49,14 +52,15 @@ struct Cell {
   }
 };
 
-/// All index tuples below `split`, the last one fastest.
+/// The indices of all cells, the last one fastest.
 template <int Dim>
-std::vector<std::array<int, Dim>> cells_of(const std::array<int, Dim>& split) {
+std::vector<std::array<int, Dim>> cells_of(const std::array<std::vector<double>, Dim>& ends) {
   std::vector<std::array<int, Dim>> all{{}};
   for (int c = 0; c < Dim; ++c) {
     std::vector<std::array<int, Dim>> next;
     for (std::array<int, Dim> index : all) {
-      for (index[c] = 0; index[c] < split[c]; ++index[c]) next.push_back(index);
+      const int cells = static_cast<int>(ends[c].size()) - 1;
+      for (index[c] = 0; index[c] < cells; ++index[c]) next.push_back(index);
     }
     all = std::move(next);
   }
@@ -79,6 +83,16 @@ std::vector<double> block_axis(BlockNodes nodes, int n) {
   axis.front() = 0;
   axis.back() = 1;
   return axis;
+}
+
+std::vector<double> cell_ends(int cells, double ratio) {
+  std::vector<double> ends{0};
+  for (int i = 0; i < cells; ++i) {
+    ends.push_back(ends.back() + std::pow(ratio, std::abs(i - (cells - 1) / 2.0)));
+  }
+  const double length = ends.back();
+  for (double& end : ends) end /= length;
+  return ends;
 }
 
 template <int Dim>
@@ -104,16 +118,16 @@ Eigen::Matrix<double, Dim, Dim> jacobian(const std::function<Point<Dim>(const Po
 
 template <int Dim>
 PointCloud<Dim> block_cloud(const Domain<Dim>& domain, const std::vector<double>& axis,
-                            const std::array<int, Dim>& split) {
+                            const std::array<std::vector<double>, Dim>& ends) {
   UnitLattice<Dim> lattice = tensor_lattice<Dim>(axis);
   lattice.block.axes.fill(axis);
   const std::vector<Block<Dim>> blocks = domain.blocks();
-  const std::vector<std::array<int, Dim>> indices = cells_of<Dim>(split);
+  const std::vector<std::array<int, Dim>> indices = cells_of<Dim>(ends);
   const bool is_one = blocks.size() * indices.size() == 1;
   CloudBuilder<Dim> builder;
   for (const Block<Dim>& block : blocks) {
     for (const std::array<int, Dim>& index : indices) {
-      const Cell<Dim> cell{block, index, split};
+      const Cell<Dim> cell{block, index, ends};
       if (!is_one) builder.begin_part(0, lattice.block);
       for (Eigen::Index id = 0; id < lattice.nodes.cols(); ++id) {
         const Point<Dim> own = lattice.nodes.col(id);
@@ -131,7 +145,7 @@ PointCloud<Dim> block_cloud(const Domain<Dim>& domain, const std::vector<double>
   template Eigen::Matrix<double, Dim, Dim> jacobian<Dim>(                                   \
       const std::function<Point<Dim>(const Point<Dim>&)>&, const Point<Dim>&);              \
   template PointCloud<Dim> block_cloud<Dim>(const Domain<Dim>&, const std::vector<double>&, \
-                                            const std::array<int, Dim>&);
+                                            const std::array<std::vector<double>, Dim>&);
 STRONGPOINT_INSTANTIATE(1)
 STRONGPOINT_INSTANTIATE(2)
 STRONGPOINT_INSTANTIATE(3)

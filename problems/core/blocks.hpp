@@ -25,12 +25,16 @@ template <int Dim>
 Eigen::Matrix<double, Dim, Dim> jacobian(const std::function<Point<Dim>(const Point<Dim>&)>& map,
                                          const Point<Dim>& unit);
 
-/// The nodes of all blocks of a domain: one part for every block, or for every one of its `split`
-/// cells along each axis, with the tensor product of one list of coordinates. Faces between parts
-/// carry interface marks, normals by the Jacobian of the block's map. Throws CaseError when nodes
-/// coincide or are not finite.
+/// Ends of `cells` cells of [0, 1], (cells + 1), whose widths shrink from the middle towards both
+/// ends by the factor `ratio` from one to the next, 1 for equal ones.
+std::vector<double> cell_ends(int cells, double ratio);
+
+/// The nodes of all blocks of a domain: one part for every cell that the blocks are cut into along
+/// each axis (`ends`: see cell_ends), with the tensor product of one list of coordinates. Faces
+/// between parts carry interface marks, normals by the Jacobian of the block's map. Throws
+/// CaseError when nodes coincide or are not finite.
 template <int Dim>
 PointCloud<Dim> block_cloud(const Domain<Dim>& domain, const std::vector<double>& axis,
-                            const std::array<int, Dim>& split);
+                            const std::array<std::vector<double>, Dim>& ends);
 
 }  // namespace strongpoint

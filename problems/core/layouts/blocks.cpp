@@ -44,7 +44,10 @@ LayoutEntry layout_blocks() {
        "structured nodes in every block of a mapped domain, doubled where blocks meet",
        {{"n", "0", "nodes a side of each block; 0: the level"},
         {"nodes", "uniform", "uniform | clustered | chebyshev | gll: along a side"},
-        {"split", "1", "cells a side that each block is split into; one number an axis: 1x2"}}},
+        {"split", "1", "cells a side that each block is split into; one number an axis: 1x2"},
+        {"ratio", "1",
+         "of the widths of cells from the middle of a block towards its faces, 0.05 "
+         "to 1"}}},
       []<int Dim>(const Domain<Dim>& domain, const Options& options, const LayoutRequest& request) {
         const int given = options.integer("n", 0, 1000);
         const auto nodes =
@@ -57,7 +60,11 @@ LayoutEntry layout_blocks() {
           throw UsageError(
               fmt::format("{}={}: at least 2 nodes a side are needed", options.where("n"), n));
         }
-        return block_cloud<Dim>(domain, block_axis(nodes, n), split_of<Dim>(options));
+        const double ratio = options.number("ratio", 0.05, 1);
+        const std::array<int, Dim> split = split_of<Dim>(options);
+        std::array<std::vector<double>, Dim> ends;
+        for (int c = 0; c < Dim; ++c) ends[c] = cell_ends(split[c], ratio);
+        return block_cloud<Dim>(domain, block_axis(nodes, n), ends);
       });
 }
 
