@@ -78,7 +78,8 @@ class GradedMaterial final : public ElasticProblem<2> {
   std::optional<ElasticNodes> exact_at_nodes(const PointCloud<2>& cloud) const override {
     ElasticNodes exact{Eigen::MatrixXd(2, cloud.size()), Eigen::MatrixXd(3, cloud.size())};
     for (int i = 0; i < cloud.size(); ++i) {
-      exact.fields.col(i) = displacement(cloud.nodes.col(i));
+      const Point2 u = displacement(cloud.nodes.col(i));
+      for (int c = 0; c < 2; ++c) exact.fields(c, i) = u[c];
       exact.stresses.col(i) = tensor_components<2>(stress_at(cloud.nodes.col(i)));
     }
     return exact;
