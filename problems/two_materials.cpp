@@ -47,6 +47,7 @@ class Strip : public Domain<2> {
   }
   std::vector<BoundaryPiece<2>> pieces() const override {
     std::vector<BoundaryPiece<2>> all;
+    all.reserve(4);
     for (int face = 0; face < 4; ++face) {
       all.push_back({sides_[face], [this, face](const BoundaryPiece<2>::Parameter& t) {
                        Point2 unit;

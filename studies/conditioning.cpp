@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "methods/core/parts.hpp"
 #include "studies/support/stencil_quality.hpp"
 #include "studies/support/study.hpp"
 #include "studies/support/vtk.hpp"
@@ -80,7 +81,7 @@ Figures judge(Discretisation<Dim>& scene, const Method<Dim>& method, Scaling sca
     figures.spread.push_back(stencil_conditions<Dim>(scene, method, scaling, norm));
   }
   try {
-    scene.weights = method.weights(scene.sites, scene.stencils, scene.derivatives);
+    scene.weights = weights_by_part(method, scene.sites, scene.stencils, scene.derivatives);
   } catch (const CaseError& error) {
     figures.centres.reason = error.what();
     figures.spread.insert(figures.spread.end(), 3, figures.centres);

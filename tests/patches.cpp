@@ -1,6 +1,7 @@
 // Clouds of several parts: who meets whom, that stencils stay at home, what holds on interfaces.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <gtest/gtest.h>
 
@@ -96,6 +97,24 @@ TEST(Patches, WeightsArePastedTogetherRowByRow) {
   Sites<2> broken = sites;
   broken.node_part.pop_back();
   EXPECT_THROW(split_by_part<2>(broken), CaseError);
+}
+
+/// On blocks that are the same but for their place, stencils have the conditions of one block.
+TEST(Patches, JudgeStencilsPartByPart) {
+  with_problem<SteadyProblem>(patches, "steady", []<int Dim>(const SteadyProblem<Dim>& problem) {
+    StageTimes times;
+    const CaseKey key = steady_case(patches, "fdm[order=4,exact=mapped]", "grid", 6);
+    const auto made = discretise(problem, key, RunOptions{}, times);
+    std::vector<int> anchors(72);
+    std::iota(anchors.begin(), anchors.end(), 0);
+    const std::vector<double> conditions =
+        condition_by_part(*make_method<Dim>(key.method).made, made->sites, anchors, made->stencils,
+                          Scaling::both, ConditionNorm::two);
+    for (int i = 0; i < 36; ++i) {
+      EXPECT_NEAR(conditions[i], 1, 1e-12);  // lines at right angles
+      EXPECT_NEAR(conditions[i + 36], 1, 1e-12);
+    }
+  });
 }
 
 TEST(TwoMaterials, AreExactAsPatches) {

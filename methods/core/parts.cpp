@@ -1,6 +1,7 @@
 #include "methods/core/parts.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -62,7 +63,33 @@ void fill_sites(const Sites<Dim>& all, const std::vector<int>& local_node,
     sites.wanted.push_back(all.wanted[a]);
   }
   for (int p : part.points) sites.point_anchor.push_back(local_anchor[all.point_anchor[p]]);
+  if (all.volumes.size() > 0) sites.volumes = all.volumes(part.nodes);
+  if (all.spacing.size() > 0) sites.spacing = all.spacing(part.anchors);
 }
+
+/// The stencils of the anchors of one part among those listed, with the part's ids.
+template <int Dim>
+struct PartStencils {
+  std::vector<int> anchors;
+  Stencils stencils;
+  std::vector<int> places;  ///< of each in the list
+
+  PartStencils(const PartSites<Dim>& part, std::span<const int> listed, const Stencils& all) {
+    std::vector<int> ids;
+    for (std::size_t i = 0; i < listed.size(); ++i) {
+      const auto found = std::lower_bound(part.anchors.begin(), part.anchors.end(), listed[i]);
+      if (found == part.anchors.end() || *found != listed[i]) continue;
+      anchors.push_back(static_cast<int>(found - part.anchors.begin()));
+      places.push_back(static_cast<int>(i));
+      ids.clear();
+      for (int node : all[static_cast<int>(i)]) {
+        const auto own = std::lower_bound(part.nodes.begin(), part.nodes.end(), node);
+        ids.push_back(static_cast<int>(own - part.nodes.begin()));
+      }
+      stencils.push_back(ids);
+    }
+  }
+};
 
 }  // namespace
 
@@ -127,14 +154,60 @@ Weights join_weights(const std::vector<PartSites<Dim>>& parts,
   return all;
 }
 
-#define STRONGPOINT_INSTANTIATE(Dim) /* the same three for every dimension */ \
-  template std::vector<PartSites<Dim>> split_by_part(const Sites<Dim>&);      \
-  template Stencils join_stencils(const std::vector<PartSites<Dim>>&,         \
-                                  const std::vector<Stencils>&);              \
-  template Weights join_weights(const std::vector<PartSites<Dim>>&, const std::vector<Weights>&);
-STRONGPOINT_INSTANTIATE(1)
-STRONGPOINT_INSTANTIATE(2)
-STRONGPOINT_INSTANTIATE(3)
-#undef STRONGPOINT_INSTANTIATE
+template <int Dim>
+Weights weights_by_part(const Method<Dim>& method, const Sites<Dim>& sites,
+                        const Stencils& stencils, const Derivatives<Dim>& derivatives) {
+  if (sites.part_blocks.empty()) return method.weights(sites, stencils, derivatives);
+  std::vector<int> anchors(static_cast<std::size_t>(stencils.size()));
+  std::iota(anchors.begin(), anchors.end(), 0);
+  const std::vector<PartSites<Dim>> parts = split_by_part(sites);
+  std::vector<Weights> weights;
+  weights.reserve(parts.size());
+  for (const PartSites<Dim>& part : parts) {
+    const PartStencils<Dim> own(part, anchors, stencils);
+    weights.push_back(method.weights(part.sites, own.stencils, derivatives));
+  }
+  return join_weights(parts, weights);
+}
+
+template <int Dim>
+std::vector<double> condition_by_part(const Method<Dim>& method, const Sites<Dim>& sites,
+                                      std::span<const int> anchors, const Stencils& stencils,
+                                      Scaling scaling, ConditionNorm norm) {
+  if (sites.part_blocks.empty()) return method.condition(sites, anchors, stencils, scaling, norm);
+  std::vector<double> all(anchors.size());
+  for (const PartSites<Dim>& part : split_by_part(sites)) {
+    const PartStencils<Dim> own(part, anchors, stencils);
+    const std::vector<double> conditions =
+        method.condition(part.sites, own.anchors, own.stencils, scaling, norm);
+    for (std::size_t i = 0; i < own.places.size(); ++i) all[own.places[i]] = conditions[i];
+  }
+  return all;
+}
+
+template std::vector<PartSites<1>> split_by_part(const Sites<1>&);
+template Stencils join_stencils(const std::vector<PartSites<1>>&, const std::vector<Stencils>&);
+template Weights join_weights(const std::vector<PartSites<1>>&, const std::vector<Weights>&);
+template Weights weights_by_part(const Method<1>&, const Sites<1>&, const Stencils&,
+                                 const Derivatives<1>&);
+template std::vector<double> condition_by_part(const Method<1>&, const Sites<1>&,
+                                               std::span<const int>, const Stencils&, Scaling,
+                                               ConditionNorm);
+template std::vector<PartSites<2>> split_by_part(const Sites<2>&);
+template Stencils join_stencils(const std::vector<PartSites<2>>&, const std::vector<Stencils>&);
+template Weights join_weights(const std::vector<PartSites<2>>&, const std::vector<Weights>&);
+template Weights weights_by_part(const Method<2>&, const Sites<2>&, const Stencils&,
+                                 const Derivatives<2>&);
+template std::vector<double> condition_by_part(const Method<2>&, const Sites<2>&,
+                                               std::span<const int>, const Stencils&, Scaling,
+                                               ConditionNorm);
+template std::vector<PartSites<3>> split_by_part(const Sites<3>&);
+template Stencils join_stencils(const std::vector<PartSites<3>>&, const std::vector<Stencils>&);
+template Weights join_weights(const std::vector<PartSites<3>>&, const std::vector<Weights>&);
+template Weights weights_by_part(const Method<3>&, const Sites<3>&, const Stencils&,
+                                 const Derivatives<3>&);
+template std::vector<double> condition_by_part(const Method<3>&, const Sites<3>&,
+                                               std::span<const int>, const Stencils&, Scaling,
+                                               ConditionNorm);
 
 }  // namespace strongpoint

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "methods/core/method.hpp"
 #include "methods/core/sites.hpp"
 #include "methods/core/weights.hpp"
 
@@ -29,5 +30,16 @@ Stencils join_stencils(const std::vector<PartSites<Dim>>& parts,
 /// Weights of all points, with ids of the whole, from those of the parts.
 template <int Dim>
 Weights join_weights(const std::vector<PartSites<Dim>>& parts, const std::vector<Weights>& weights);
+
+/// Method::weights on sites of one part or several.
+template <int Dim>
+Weights weights_by_part(const Method<Dim>& method, const Sites<Dim>& sites,
+                        const Stencils& stencils, const Derivatives<Dim>& derivatives);
+
+/// Method::condition on sites of one part or several.
+template <int Dim>
+std::vector<double> condition_by_part(const Method<Dim>& method, const Sites<Dim>& sites,
+                                      std::span<const int> anchors, const Stencils& stencils,
+                                      Scaling scaling, ConditionNorm norm);
 
 }  // namespace strongpoint

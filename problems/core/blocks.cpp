@@ -104,8 +104,8 @@ Eigen::Matrix<double, Dim, Dim> jacobian(const std::function<Point<Dim>(const Po
   Eigen::Matrix<double, Dim, Dim> result = Eigen::Matrix<double, Dim, Dim>::Zero();
   for (int c = 0; c < Dim; ++c) {
     const double first = std::clamp(unit[c] - width / 2, 0.0, 1 - width);
-    std::vector<double> at;
-    for (double z : window) at.push_back(first + width * z);
+    std::vector<double> at = window;
+    for (double& z : at) z = first + width * z;
     const Eigen::MatrixXd weights = fornberg_weights(at, unit[c], 1);
     Point<Dim> x = unit;
     for (int i = 0; i < count; ++i) {

@@ -131,6 +131,7 @@ class Junction {
     }
     const std::size_t row = row_++;
     std::vector<BoundaryMark<Dim>> marks;
+    marks.reserve(faces.size());
     for (const Face<Dim>& face : faces) marks.push_back(face.mark);
     if (faces.size() == 1 || faces.size() > free_axes.size() || !are_apart<Dim>(marks)) {
       write_sum(field_of_axis_[axis], faces, write);

@@ -16,6 +16,14 @@ const Domain<Dim>& domain_of_part(const PointCloud<Dim>& cloud, int part, const 
   throw SkipCase("the method needs cell volumes, which are not made for a cloud of several blocks");
 }
 
+/// Copies what was prepared for a part, if anything, to its ids in the whole.
+void keep(const Eigen::VectorXd& of_part, const std::vector<int>& ids, int count,
+          Eigen::VectorXd& all) {
+  if (of_part.size() == 0) return;
+  all.conservativeResize(count);
+  all(ids) = of_part;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -35,6 +43,8 @@ void walk_parts(Discretisation<Dim>& scene, const Domain<Dim>& domain, const Cho
     });
     advance(piece, domain_of_part(scene.cloud, p, domain, *choices.method), choices, options, clock,
             times);
+    keep(piece.sites.volumes, parts[p].nodes, scene.sites.node_count(), scene.sites.volumes);
+    keep(piece.sites.spacing, parts[p].anchors, scene.sites.anchor_count(), scene.sites.spacing);
     stencils.push_back(std::move(piece.stencils));
     weights.push_back(std::move(piece.weights));
   }

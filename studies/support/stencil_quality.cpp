@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "methods/core/monomial.hpp"
+#include "methods/core/parts.hpp"
 
 namespace strongpoint {
 namespace {
@@ -93,7 +94,7 @@ PerAnchor stencil_conditions(const Discretisation<Dim>& scene, const Method<Dim>
   }
   try {
     const std::vector<double> conditions =
-        method.condition(scene.sites, anchors, stencils, scaling, norm);
+        condition_by_part(method, scene.sites, anchors, stencils, scaling, norm);
     PerAnchor result{std::vector<double>(scene.sites.anchor_count(), none), ""};
     for (std::size_t i = 0; i < anchors.size(); ++i) result.values[anchors[i]] = conditions[i];
     return result;
