@@ -160,8 +160,9 @@ class TwoMaterials final : public ElasticProblem<2> {
 
 /// Two squares of different materials side by side under tension: as two patches joined by
 /// conditions on their interface, or as one with varying coefficients, (4.21), whose gradients at
-/// the jump are differences over one spacing to either side: wrong by some per cent on every
-/// cloud, as the thesis says. Source: thesis 4.2.3; its sizes and constants are ours.
+/// the jump are differences over one spacing to either side. The latter is wrong by a quarter on
+/// grids however fine, and by more on scattered nodes: the thesis warns of oscillations. Source:
+/// thesis 4.2.3; its sizes and constants are ours.
 ProblemEntry problem_two_materials() {
   return {{"two_materials",
            "two materials under tension, plane strain, piecewise linear solution",
