@@ -81,6 +81,16 @@ Eigen::VectorXd cell_volumes(const Discretisation<Dim>& scene, const Domain<Dim>
   return volumes;
 }
 
+/// First coordinate of each node that is an unknown.
+template <int Dim>
+Eigen::VectorXd first_coordinates(const Discretisation<Dim>& scene) {
+  Eigen::VectorXd x(scene.unknowns.count);
+  for (int node = scene.sites.node_count() - 1; node >= 0; --node) {  // its own place comes last
+    x[scene.unknowns.of(node)] = scene.sites.nodes(0, node);
+  }
+  return x;
+}
+
 template <int Dim>
 std::vector<int> field_axes(const SteadyProblem<Dim>& problem) {
   std::vector<int> axes;
@@ -201,9 +211,7 @@ CaseResult solve_steady(const SteadyProblem<Dim>& problem, const CaseKey& key,
     return assemble(scene.equations(scene.derivatives), scene.weights, scene.unknowns, field_count);
   });
   if (is_iterative(key.solver)) {
-    clock.time(times.solve, [&] {
-      system.order = order_along(scene.sites.nodes.row(0).head(scene.unknowns.count).transpose());
-    });
+    clock.time(times.solve, [&] { system.order = order_along(first_coordinates(scene)); });
   }
   const LinearSolution linear = clock.time(times.solve, [&] { return solve(system, key.solver); });
   times.peak_mb = peak_memory_mb();
