@@ -232,6 +232,38 @@ TEST(CellFaces, ANodeWithoutACellIsNamed) {
   EXPECT_THROW(faces_of<2>(unit_cloud<2>("grid", 9), UnitCube<2>(), 5), std::invalid_argument);
 }
 
+/// [0,1]^2 without a disc that covers less than one per cent of it, and of which it tells nothing.
+class PiercedSquare final : public UnmappedDomain {
+ public:
+  const std::vector<std::string>& sides() const override {
+    static const std::vector<std::string> names{"left", "right", "bottom", "top", "hole"};
+    return names;
+  }
+  double measure() const override { return 1 - M_PI * radius * radius; }
+  double reference_length() const override { return 1; }
+  Point<2> normal(int side, const Point<2>& x) const override {
+    return side < 4 ? square_.normal(side, x) : Point<2>((centre() - x).normalized());
+  }
+  double distance(const Point<2>& x) const override {
+    return std::max(square_.distance(x), radius - (x - centre()).norm());
+  }
+  std::vector<BoundaryPiece<2>> pieces() const override { return square_.pieces(); }
+
+ private:
+  static constexpr double radius = 0.05;
+  static Point<2> centre() { return {0.58, 0.58}; }
+  UnitCube<2> square_;
+};
+
+TEST(CellFaces, AHoleInsideACellIsMissed) {
+  const PiercedSquare domain;
+  CloudBuilder<2> builder;
+  for (int i = 0; i < 9; ++i) builder.add({(i / 3 + 0.5) / 3, (i % 3 + 0.5) / 3});
+  const std::string missed =
+      message_of([&] { faces_of<2>(builder.finish(domain.measure()), domain); });
+  EXPECT_NE(missed.find("cells measure 1, the domain 0.992146"), std::string::npos) << missed;
+}
+
 TEST(CellFaces, ABoundaryThatCannotBeFollowedIsNamed) {
   // Three nodes are too few for the hole of a ring: a cell is right, or it is named.
   const RingDomain ring;

@@ -51,17 +51,32 @@ class PointStore {
   std::vector<std::vector<FacePoint<Dim>>> by_thread_;
 };
 
-/// Throws unless every cell has a positive measure.
+/// How far the sum of the cells may be from the domain: curved sides in space on the coarsest
+/// clouds err by 3e-3 with one point a face, all else by less than 1e-4.
 template <int Dim>
-void check_cells(const PointCloud<Dim>& cloud, const CellFaces<Dim>& faces) {
+constexpr double measure_tolerance = Dim == 3 ? 1e-2 : 1e-3;
+
+/// Throws unless every cell has a positive measure and all together have that of the domain.
+template <int Dim>
+void check_cells(const PointCloud<Dim>& cloud, const Domain<Dim>& domain,
+                 const CellFaces<Dim>& faces) {
+  double sum = 0;
   for (int i = 0; i < cloud.size(); ++i) {
     const Point<Dim> centre = cloud.nodes.col(i);
     const double measure = cell_measure<Dim>(centre, faces.of(i));
+    sum += measure;
     if (measure > 0 && std::isfinite(measure)) continue;
     throw CaseError(
         fmt::format("the faces of the Voronoi cell of node {} at {} enclose {:g}: move the node "
                     "into the domain, or remove the nodes that coincide with it",
                     i, format_point(centre), measure));
+  }
+  const double whole = domain.measure();
+  if (std::abs(sum - whole) > measure_tolerance<Dim> * whole) {
+    throw CaseError(
+        fmt::format("the Voronoi cells measure {:.6g}, the domain {:.6g}: cells miss parts of the "
+                    "boundary; put nodes on it, or refine the cloud",
+                    sum, whole));
   }
 }
 
@@ -88,7 +103,7 @@ CellFaces<Dim> cell_faces(const PointCloud<Dim>& cloud, const Domain<Dim>& domai
     };
   });
   CellFaces<Dim> faces = store.collect();
-  check_cells(cloud, faces);
+  check_cells(cloud, domain, faces);
   return faces;
 }
 

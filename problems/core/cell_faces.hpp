@@ -48,7 +48,8 @@ struct CellFaces {
 /// side match to that order. Points near curved sides may have areas of either sign.
 ///
 /// Throws CaseError, naming the node, for a cell that is empty or not bounded, or in which the
-/// boundary cannot be followed (2D, cells larger than its features), and std::invalid_argument
+/// boundary cannot be followed (2D, cells larger than its features); CaseError when the cells do
+/// not add up to the measure of the domain, by 1e-3 (3D: 1e-2) of it; and std::invalid_argument
 /// unless gauss is 1 to 4.
 template <int Dim>
 CellFaces<Dim> cell_faces(const PointCloud<Dim>& cloud, const Domain<Dim>& domain,
