@@ -14,7 +14,10 @@ class Block final : public StencilRule<Dim> {
   Stencils select(const Sites<Dim>& sites, std::span<const int> anchors, const Method<Dim>& method,
                   const NeighbourSearch<Dim>&) const override {
     if (!sites.block) {
-      throw SkipCase("the rule 'block' needs a structured cloud (grid, perturbed, graded)");
+      throw SkipCase(
+          "the rule 'block' needs a structured cloud (grid, perturbed, graded, blocks) to which "
+          "the "
+          "form adds no nodes (ghosts, mirror images)");
     }
     // An odd width keeps the centre in the middle: 3 for order 2, 5 for orders 3 and 4.
     const int order = std::max(1, method.promises().reproduces);

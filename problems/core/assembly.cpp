@@ -203,17 +203,25 @@ void for_each_row(int rows, int unknowns, const Work& work) {
   errors.rethrow();
 }
 
-void check_rows(const std::vector<double>& largest, const Eigen::VectorXd& right_hand_side,
-                int fields) {
+/// Where a row is written, by its first term: points beyond those of the nodes are named as such.
+std::string place_of(Terms terms, const Scene& scene) {
+  if (terms.empty()) return "without terms";
+  const int point = terms.front().point;
+  const char* kind = point < scene.unknowns.count ? "node" : "evaluation point";
+  return fmt::format("with terms at {} {}", kind, point);
+}
+
+void check_rows(const EquationList& equations, const Scene& scene,
+                const std::vector<double>& largest, const Eigen::VectorXd& right_hand_side) {
   for (std::size_t row = 0; row < largest.size(); ++row) {
     const bool fine =
         largest[row] > 0 && std::isfinite(right_hand_side[static_cast<Eigen::Index>(row)]);
     if (fine) continue;
     const char* what = largest[row] == 0 ? "has no entry but zeros (or its node no stencil)"
                                          : "holds a number that is not finite";
-    throw CaseError(
-        fmt::format("equation {} of node {} {}; check the problem's data and the stencil",
-                    static_cast<int>(row) % fields, static_cast<int>(row) / fields, what));
+    throw CaseError(fmt::format("row {} of {}, {}, {}; check the problem's data and the stencil",
+                                row, largest.size(),
+                                place_of(equations.row(static_cast<int>(row)), scene), what));
   }
 }
 
@@ -258,7 +266,7 @@ LinearSystem assemble(const EquationList& equations, const Weights& weights,
              system.values.data() + begin);
     largest[row] = scale_row(system.values.data() + begin, count, system.right_hand_side[row]);
   });
-  check_rows(largest, system.right_hand_side, fields);
+  check_rows(equations, scene, largest, system.right_hand_side);
   if (!equations.row_weights.empty()) weigh_rows(equations.row_weights, system);
   return system;
 }

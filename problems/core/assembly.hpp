@@ -13,7 +13,7 @@ namespace strongpoint {
 /// or more for a least-squares solution. A term on the bare value (`value_only`) at point p
 /// is the unknown of node p. Cost: one pass to size the rows, one to fill them, in parallel, no
 /// triplets. Throws CaseError for a row without entries, for an entry that is not finite, and for a
-/// derivative read at a point without weights, naming the row's node.
+/// derivative read at a point without weights, naming the row and where its first term is taken.
 LinearSystem assemble(const EquationList& equations, const Weights& weights,
                       const NodeUnknowns& unknowns, int fields);
 

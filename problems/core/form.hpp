@@ -54,6 +54,17 @@ const FluxProblem<Dim>* flux_problem(const SteadyProblem<Dim>& problem) {
   return dynamic_cast<const FluxProblem<Dim>*>(&problem);
 }
 
+/// Name of the first field of a problem that has no flux; empty when all have one.
+template <int Dim>
+std::string field_without_flux(const SteadyProblem<Dim>& problem) {
+  const FluxProblem<Dim>* balance = flux_problem(problem);
+  const std::vector<std::string> fields = problem.fields();
+  for (std::size_t f = 0; f < fields.size(); ++f) {
+    if (balance == nullptr || !balance->has_flux(static_cast<int>(f))) return fields[f];
+  }
+  return {};
+}
+
 /// A registered form.
 struct FormEntry {
   EntryInfo info;

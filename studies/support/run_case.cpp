@@ -121,7 +121,9 @@ void choose_stencils(Discretisation<Dim>& scene, const Domain<Dim>& domain,
   }
   const Needs needs = choices.method->needs() | (choices.rule ? choices.rule->needs() : Needs{});
   if (choices.method->needs().block && !scene.sites.block) {
-    throw SkipCase("the method needs a structured cloud (grid, perturbed, graded)");
+    throw SkipCase(
+        "the method needs a structured cloud (grid, perturbed, graded, blocks) to which the form "
+        "adds no nodes (ghosts, mirror images)");
   }
   const auto engine = clock.time(
       times.neighbours, [&] { return make_search<Dim>(options.neighbours, scene.sites.nodes); });

@@ -7,6 +7,7 @@
 #include "problems/core/ghosts.hpp"
 #include "problems/core/interface_rows.hpp"
 #include "problems/core/mirror.hpp"
+#include "problems/core/side_nodes.hpp"
 
 namespace strongpoint {
 namespace {
@@ -209,6 +210,7 @@ class Collocation final : public Form<Dim> {
                                                              : Symmetry::rows;
     const Symmetry wanted = symmetry_ == Symmetry::by_default ? by_default : symmetry_;
     const std::vector<SymmetryPlane> planes = mirrored_planes(problem, wanted);
+    check_nodes_on_all_sides(problem.domain(), cloud, planes);
     skip_unread(problem, cloud, method, planes, plan.sites);
     Ghosts<Dim> ghosts;
     if (boundary_ != Boundary::plain || !planes.empty()) {

@@ -7,6 +7,7 @@
 #include "problems/core/cell_faces.hpp"
 #include "problems/core/form.hpp"
 #include "problems/core/mirror.hpp"
+#include "problems/core/side_nodes.hpp"
 
 namespace strongpoint {
 namespace {
@@ -154,6 +155,8 @@ class FluxForm final : public Form<Dim> {
   Plan<Dim> plan(const SteadyProblem<Dim>& problem, const PointCloud<Dim>& cloud,
                  const Method<Dim>& method) const override {
     const FluxProblem<Dim>& balance = *flux_problem(problem);
+    const std::vector<SymmetryPlane> planes = mirrored_planes(problem, symmetry_);
+    check_nodes_on_value_sides(balance, cloud, planes);
     const auto search = make_search<Dim>("auto", cloud.nodes);
     Plan<Dim> plan;
     plan.sites = sites_of_cloud<Dim>(cloud);
@@ -163,7 +166,6 @@ class FluxForm final : public Form<Dim> {
     if (!method.promises().interpolates) plan.derivatives.merge({MultiIndex<Dim>{}});
     want_what_is_read(balance, cloud, rows, plan);
     plan.unknowns.count = cloud.size();
-    const std::vector<SymmetryPlane> planes = mirrored_planes(problem, symmetry_);
     if (!planes.empty()) {
       append_images(planes, local_spacing<Dim>(cloud.nodes, cloud.nodes, *search), plan.sites,
                     plan.unknowns);

@@ -210,15 +210,9 @@ class Gll final : public Form<Dim> {
       return "the form gll takes differences along the lines of blocks; take "
              "fdm[order=spectral,exact=mapped]";
     }
-    const FluxProblem<Dim>* balance = flux_problem(problem);
-    const int fields = static_cast<int>(problem.fields().size());
-    for (int f = 0; f < fields; ++f) {
-      if (balance == nullptr || !balance->has_flux(f)) {
-        return fmt::format("the form gll integrates fluxes, and the field {} has none",
-                           problem.fields()[f]);
-      }
-    }
-    return {};
+    const std::string field = field_without_flux(problem);
+    if (field.empty()) return {};
+    return fmt::format("the form gll integrates fluxes, and the field {} has none", field);
   }
   bool joins_parts() const override { return true; }
 

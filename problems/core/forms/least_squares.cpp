@@ -2,6 +2,7 @@
 
 #include "problems/core/cell_faces.hpp"
 #include "problems/core/form.hpp"
+#include "problems/core/side_nodes.hpp"
 
 namespace strongpoint {
 namespace {
@@ -89,7 +90,7 @@ class LeastSquaresRows {
   int fields_;
 
   void write_between(const ExtraPoint<Dim>& point, EquationWriter<Dim>& write) const {
-    const Place<Dim> place{point.x, cloud_.patch_of(point.node)};
+    const Place<Dim> place{point.x, cloud_.patch_of(point.node), cloud_.spacing()};
     if (point.side < 0) return problem_.governing(place, write);
     for (int f = 0; f < fields_; ++f) {
       if (!problem_.has_flux(f) || problem_.known(f, point.side) == Known::value) continue;
@@ -114,6 +115,7 @@ class LeastSquares final : public Form<Dim> {
   Plan<Dim> plan(const SteadyProblem<Dim>& problem, const PointCloud<Dim>& cloud,
                  const Method<Dim>& method) const override {
     const FluxProblem<Dim>& balance = *flux_problem(problem);
+    check_nodes_on_all_sides(problem.domain(), cloud);
     const auto search = make_search<Dim>("auto", cloud.nodes);
     std::vector<ExtraPoint<Dim>> extra =
         points_between(cloud, cell_faces<Dim>(cloud, problem.domain(), *search, 1));

@@ -9,6 +9,7 @@
 #include "problems/core/disc_quadrature.hpp"
 #include "problems/core/flux_problem.hpp"
 #include "problems/core/form.hpp"
+#include "problems/core/side_nodes.hpp"
 
 namespace strongpoint {
 namespace {
@@ -204,6 +205,10 @@ class MlpgForm final : public Form<Dim> {
       if (flux_problem(problem) == nullptr) {
         return "mlpg integrates the flux of a problem, which this one does not state";
       }
+      if (const std::string field = field_without_flux(problem); !field.empty()) {
+        return fmt::format("mlpg integrates fluxes, and the field {} has none; flux can serve",
+                           field);
+      }
       if (method.needs().centre) {
         return "mlpg evaluates derivatives at Gauss points, which are no nodes, and this method "
                "needs a node at the centre of each stencil; mls can serve";
@@ -218,6 +223,7 @@ class MlpgForm final : public Form<Dim> {
       throw SkipCase(unsupported(problem, method));
     } else {
       const FluxProblem<2>& balance = *flux_problem(problem);
+      check_nodes_on_value_sides(balance, cloud);
       std::vector<TestDomain> domains = form_.domains(balance, cloud);
       Plan<2> plan;
       plan.derivatives = balance.flux_derivatives();
