@@ -105,9 +105,9 @@ ProblemEntry problem_cook() {
              "spacing of scattered nodes at the corners over that at a distance of 20, 0.001 to 1"},
             unknowns_option()}},
           [](const Options& options) -> AnyProblem {
-            return std::make_unique<Cook>(options.number("nu", 0, 0.49999),
-                                          options.number("grade", 1e-3, 1),
-                                          chosen_unknowns(options));
+            const double nu = options.number("nu", 0, 0.49999);
+            return std::make_unique<Cook>(nu, options.number("grade", 1e-3, 1),
+                                          chosen_unknowns(options, nu));
           }};
 }
 

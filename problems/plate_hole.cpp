@@ -110,10 +110,11 @@ ProblemEntry problem_plate_hole() {
              "uniform"},
             unknowns_option()}},
           [](const Options& options) -> AnyProblem {
+            const double nu = options.number("nu", 0, 0.4999);
             return std::make_unique<PlateHole>(
-                options.number("a", 0.01, 0.9), options.number("nu", 0, 0.4999),
+                options.number("a", 0.01, 0.9), nu,
                 options.choice<Map>("map", {{"log", Map::log}, {"edge", Map::edge}}),
-                chosen_unknowns(options));
+                chosen_unknowns(options, nu));
           }};
 }
 

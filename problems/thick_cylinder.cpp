@@ -13,10 +13,10 @@ ProblemEntry problem_thick_cylinder() {
             unknowns_option()}},
           [](const Options& options) -> AnyProblem {
             using Region = QuarterAnnulus;
+            const double nu = options.number("nu", 0, 0.49999);
             return std::make_unique<ThickWalled<2, Region>>(
-                1, 4, options.number("nu", 0, 0.49999),
-                std::vector<SymmetryPlane>{{Region::left, 0, 0}, {Region::bottom, 1, 0}},
-                chosen_unknowns(options),
+                1, 4, nu, std::vector<SymmetryPlane>{{Region::left, 0, 0}, {Region::bottom, 1, 0}},
+                chosen_unknowns(options, nu),
                 options.choice<Radii>(
                     "radii", {{"geometric", Radii::geometric}, {"uniform", Radii::uniform}}));
           }};

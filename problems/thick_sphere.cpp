@@ -11,10 +11,11 @@ ProblemEntry problem_thick_sphere() {
        {{"nu", "0.3", "Poisson's ratio, 0 to 0.49999"}, unknowns_option()}},
       [](const Options& options) -> AnyProblem {
         using Region = ShellOctant;
+        const double nu = options.number("nu", 0, 0.49999);
         return std::make_unique<ThickWalled<3, Region>>(
-            1, 2, options.number("nu", 0, 0.49999),
+            1, 2, nu,
             std::vector<SymmetryPlane>{{Region::x0, 0, 0}, {Region::y0, 1, 0}, {Region::z0, 2, 0}},
-            chosen_unknowns(options));
+            chosen_unknowns(options, nu));
       }};
 }
 

@@ -18,6 +18,17 @@ Unknowns chosen_unknowns(const Options& options) {
       "unknowns", {{"displacement", Unknowns::displacement}, {"mixed", Unknowns::mixed}});
 }
 
+Unknowns chosen_unknowns(const Options& options, double poisson) {
+  const Unknowns unknowns = chosen_unknowns(options);
+  if (unknowns == Unknowns::mixed && poisson == 0) {
+    throw UsageError(
+        options.where("unknowns") +
+        "=mixed needs a Poisson's ratio above 0, as p = -lambda div u is zero without; "
+        "leave it out");
+  }
+  return unknowns;
+}
+
 template <int Dim>
 std::vector<std::string> ElasticProblem<Dim>::fields() const {
   static constexpr const char* names[] = {"u", "v", "w"};
@@ -83,9 +94,14 @@ void ElasticProblem<Dim>::ghost(const Node<Dim>& node, EquationWriter<Dim>& writ
   Point<Dim> normal = Point<Dim>::Zero();
   for (const BoundaryMark<Dim>& mark : loaded_faces(node)) normal += mark.normal;
   normal.normalize();
+  const double lambda = material(node.place()).lambda;
   for (int j = 0; j < Dim; ++j) {
     for (int i = 0; i < Dim; ++i) write.add(i, partial<Dim>(i, j), normal[j]);
-    write.add(Dim, partial<Dim>(j), normal[j] / material(node.place()).lambda);
+    write.add(Dim, partial<Dim>(j), normal[j] / lambda);
+  }
+  if (varies()) {
+    const double slope = normal.dot(material_gradient(node.place()).lambda);
+    write.add(Dim, MultiIndex<Dim>{}, -slope / (lambda * lambda));
   }
   write.equals(0);
 }
@@ -144,7 +160,7 @@ void ElasticProblem<Dim>::write_conditions(const Node<Dim>& node,
   }
   const std::vector<BoundaryMark<Dim>> faces = loaded_faces(node);
   const bool by_face =
-      faces.size() > 1 && faces.size() <= free_axes.size() && are_apart<Dim>(faces);
+      faces.size() > 1 && faces.size() <= free_axes.size() && are_apart<Dim>(free_axes, faces);
   const std::vector<Point<Dim>> along =
       by_face ? directions_beside<Dim>(free_axes, faces) : std::vector<Point<Dim>>{};
   std::size_t row = 0;  // among those of the free components

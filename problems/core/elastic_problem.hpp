@@ -19,6 +19,9 @@ enum class Unknowns {
 /// The option that chooses them, and its value.
 OptionDoc unknowns_option();
 Unknowns chosen_unknowns(const Options& options);
+/// The same for a material with this Poisson's ratio. Throws UsageError for a pressure with a ratio
+/// of 0, where lambda is 0 and the pressure none.
+Unknowns chosen_unknowns(const Options& options, double poisson);
 
 /// Static linear elasticity, stated once for all forms: a problem gives its domain, its material,
 /// body forces and, side by side, which displacement or traction components are known.
@@ -28,7 +31,7 @@ Unknowns chosen_unknowns(const Options& options);
 /// tractions meet, the normal traction of each and, along the directions left over (an edge of a
 /// solid), the sum of their shear tractions; a face that `owns_corners` gives all by itself. Faces
 /// with tractions go before supports; where only supports meet, their tractions are added up, and
-/// so they are when faces outnumber the components left or meet smoothly.
+/// so they are when faces outnumber the components left, meet smoothly or lie across them.
 template <int Dim>
 class ElasticProblem : public FluxProblem<Dim> {
  public:

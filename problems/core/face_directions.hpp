@@ -42,14 +42,18 @@ Point<Dim> within(const std::vector<int>& free_axes, const Point<Dim>& normal) {
   return length > 0 ? Point<Dim>(part / length) : part;
 }
 
-/// False where two faces meet smoothly, at less than some 20 degrees, or back to back: their normal
-/// tractions say nearly the same.
+/// False where two faces meet smoothly, at less than some 20 degrees, or back to back, as seen
+/// along the free axes: their normal tractions say nearly the same. False too for a face that lies
+/// that close across the free axes: its normal traction is in the place of a displacement given.
 template <int Dim>
-bool are_apart(std::span<const BoundaryMark<Dim>> faces) {
+bool are_apart(const std::vector<int>& free_axes, std::span<const BoundaryMark<Dim>> faces) {
   constexpr double cosine = 0.94;
+  constexpr double sine = 0.34;
   for (std::size_t a = 0; a < faces.size(); ++a) {
+    const Point<Dim> part = within<Dim>(free_axes, faces[a].normal);
+    if (std::abs(part.dot(faces[a].normal)) < sine) return false;
     for (std::size_t b = a + 1; b < faces.size(); ++b) {
-      if (std::abs(faces[a].normal.dot(faces[b].normal)) > cosine) return false;
+      if (std::abs(part.dot(within<Dim>(free_axes, faces[b].normal))) > cosine) return false;
     }
   }
   return true;

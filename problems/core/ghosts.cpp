@@ -35,7 +35,8 @@ bool gives_no_value(const FluxProblem<Dim>& problem, int side) {
   return true;
 }
 
-/// The direction in which a node's ghost lies, of unit length.
+/// The direction in which a node's ghost lies, of unit length: within the mirrored planes through
+/// the node, where what a plane reverses is zero at the ghost too.
 template <int Dim>
 Point<Dim> outward(const FluxProblem<Dim>& problem, std::span<const BoundaryMark<Dim>> marks,
                    const std::vector<SymmetryPlane>& planes) {
@@ -45,6 +46,11 @@ Point<Dim> outward(const FluxProblem<Dim>& problem, std::span<const BoundaryMark
     if (lies_on_planes_only<Dim>({&mark, 1}, planes)) continue;
     all += mark.normal;
     if (gives_no_value(problem, mark.side)) loaded += mark.normal;
+  }
+  for (const BoundaryMark<Dim>& mark : marks) {
+    for (const SymmetryPlane& plane : planes) {
+      if (plane.side == mark.side) loaded[plane.axis] = all[plane.axis] = 0;
+    }
   }
   return loaded.norm() > 1e-3 ? loaded.normalized() : all.normalized();
 }

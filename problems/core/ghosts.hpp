@@ -23,8 +23,8 @@ Ghosts<Dim> prepared_ghosts(const PointCloud<Dim>& cloud, const NeighbourSearch<
 
 /// Adds a ghost for each node with a condition on derivatives, unless it lies on mirrored planes
 /// alone: one spacing off along the mean normal of the sides that give no value (of all its sides,
-/// when each gives one), mirrored planes left out. Appends the ghosts to the nodes of the sites.
-/// Throws CaseError, naming the node, when a ghost falls onto a node.
+/// when each gives one), mirrored planes left out, and within these planes. Appends the ghosts to
+/// the nodes of the sites. Throws CaseError, naming the node, when a ghost falls onto a node.
 template <int Dim>
 void place_ghosts(const FluxProblem<Dim>& problem, const PointCloud<Dim>& cloud,
                   const std::vector<SymmetryPlane>& planes, Sites<Dim>& sites, Ghosts<Dim>& ghosts);

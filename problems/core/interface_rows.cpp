@@ -133,7 +133,7 @@ class Junction {
     std::vector<BoundaryMark<Dim>> marks;
     marks.reserve(faces.size());
     for (const Face<Dim>& face : faces) marks.push_back(face.mark);
-    if (faces.size() == 1 || faces.size() > free_axes.size() || !are_apart<Dim>(marks)) {
+    if (faces.size() == 1 || faces.size() > free_axes.size() || !are_apart<Dim>(free_axes, marks)) {
       write_sum(field_of_axis_[axis], faces, write);
     } else if (row < faces.size()) {
       write_along(within<Dim>(free_axes, faces[row].mark.normal), faces[row], write);
