@@ -117,6 +117,15 @@ class PlotTest(unittest.TestCase):
         self.assertEqual([label for label, _ in bars[41]], ["mfpm, sort", "mfpm, cells"])
         self.assertAlmostEqual(bars[41][0][1]["search"], 41**-2)
 
+    def test_curves_alone_are_drawn_when_asked_for(self):
+        rows = [dict(row, **{name: 0.1 for name in TIMES}) for row in self.error_rows()]
+        self.write(rows, CONTRACT + TIMES)
+        result = plot(self.table, "--curves")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual([pathlib.Path(line).name for line in result.stdout.split()],
+                         [f"convergence_poisson-square_grid_u-error.{suffix}" for suffix in ("png", "svg")])
+        self.assert_refused(plot("map.vtu", "--curves"), "--curves", "map.vtu")
+
     def test_each_algorithm_has_a_panel_a_level_with_the_shares_that_fit(self):
         module = loaded()
         columns = {"sort": {41: [("mfpm", {"search": 9.0, "matrix": 1.0, "inversion": 0.001})]},
