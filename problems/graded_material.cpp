@@ -2,7 +2,6 @@
 
 #include "problems/core/elastic_problem.hpp"
 #include "problems/core/jet.hpp"
-#include "problems/core/norms.hpp"
 
 namespace strongpoint {
 namespace {
@@ -69,20 +68,18 @@ class GradedMaterial final : public ElasticProblem<2> {
     return {"displacement_error", "stress_error"};
   }
   std::vector<double> measure(const Solution<2>& solution) const override {
-    const std::optional<ElasticNodes> exact = exact_at_nodes(solution.cloud);
-    return {relative_error(solution.fields.topRows(2), exact->fields),
-            relative_error(nodal_stresses(solution), exact->stresses)};
+    return errors_at_nodes(solution);
   }
 
  protected:
   std::optional<ElasticNodes> exact_at_nodes(const PointCloud<2>& cloud) const override {
-    ElasticNodes exact{Eigen::MatrixXd(2, cloud.size()), Eigen::MatrixXd(3, cloud.size())};
+    Points<2> displacements(2, cloud.size());
+    Points<3> stresses(3, cloud.size());
     for (int i = 0; i < cloud.size(); ++i) {
-      const Point2 u = displacement(cloud.nodes.col(i));
-      for (int c = 0; c < 2; ++c) exact.fields(c, i) = u[c];
-      exact.stresses.col(i) = tensor_components<2>(stress_at(cloud.nodes.col(i)));
+      displacements.col(i) = displacement(cloud.nodes.col(i));
+      stresses.col(i) = tensor_components<2>(stress_at(cloud.nodes.col(i)));
     }
-    return exact;
+    return ElasticNodes{displacements, stresses};
   }
 
  private:

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "problems/core/elastic_problem.hpp"
-#include "problems/core/norms.hpp"
 
 namespace strongpoint {
 namespace {
@@ -125,9 +124,7 @@ class TwoMaterials final : public ElasticProblem<2> {
     return {"displacement_error", "stress_error"};
   }
   std::vector<double> measure(const Solution<2>& solution) const override {
-    const std::optional<ElasticNodes> exact = exact_at_nodes(solution.cloud);
-    return {relative_error(solution.fields.topRows(2), exact->fields),
-            relative_error(nodal_stresses(solution), exact->stresses)};
+    return errors_at_nodes(solution);
   }
 
  protected:

@@ -7,6 +7,7 @@
 
 #include "methods/core/error.hpp"
 #include "problems/core/face_directions.hpp"
+#include "problems/core/norms.hpp"
 
 namespace strongpoint {
 OptionDoc unknowns_option() {
@@ -202,6 +203,13 @@ Eigen::MatrixXd ElasticProblem<Dim>::nodal_stresses(const Solution<Dim>& solutio
     result.col(n) = tensor_components<Dim>(sigma);
   }
   return result;
+}
+
+template <int Dim>
+std::vector<double> ElasticProblem<Dim>::errors_at_nodes(const Solution<Dim>& solution) const {
+  const std::optional<ElasticNodes> exact = exact_at_nodes(solution.cloud);
+  return {relative_error(solution.fields.topRows(Dim), exact->fields),
+          relative_error(nodal_stresses(solution), exact->stresses)};
 }
 
 template <int Dim>

@@ -79,6 +79,9 @@ class ElasticProblem : public FluxProblem<Dim> {
   Eigen::MatrixXd nodal_stresses(const Solution<Dim>& solution) const;
   /// Exact displacements and stresses at the nodes, where they are known.
   virtual std::optional<ElasticNodes> exact_at_nodes(const PointCloud<Dim>&) const { return {}; }
+  /// Relative 2-norms over all nodes of the errors of the displacements and of the stresses, where
+  /// `exact_at_nodes` gives them.
+  std::vector<double> errors_at_nodes(const Solution<Dim>& solution) const;
   static Derivatives<Dim> first_derivatives() { return Derivatives<Dim>::between_orders(1, 1); }
 
  private:
