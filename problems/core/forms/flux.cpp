@@ -206,8 +206,10 @@ class FluxForm final : public Form<Dim> {
 /// add up to the source inside. Only first derivatives; no ghosts, no corner rules. Values given at
 /// nodes are rows on these. A face takes the stencil of one of its cells for both, so that fluxes
 /// are conserved; with one of its own in either row, second-order errors of displacements are 60
-/// times larger. Source: a finite-volume method with meshless gradients, as Moroney & Turner 2006
-/// (radial basis functions).
+/// times larger. Weights that are flat about the centre (mfpm, mls, the bell of lsfdm) hardly feel
+/// saw-teeth of values along a curved boundary, which spoil stresses there on fine clouds; those of
+/// rbf_fd, gmls and powers of 1/r do. Source: a finite-volume method with meshless gradients, as
+/// Moroney & Turner 2006 (radial basis functions).
 FormEntry form_flux() {
   return {{"flux",
            "fluxes balanced over each node's Voronoi cell, values at nodes",
