@@ -155,6 +155,7 @@ class Supported final : public ElasticProblem<3> {
 /// for three displacements and their nine slopes.
 Eigen::Index rank_of_rows(const Supported& problem, const std::vector<Point<3>>& normals) {
   std::vector<BoundaryMark<3>> marks;
+  marks.reserve(normals.size());
   for (const Point<3>& normal : normals) {
     marks.push_back({static_cast<int>(marks.size()), normal.normalized()});
   }
