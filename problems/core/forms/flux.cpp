@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -129,7 +130,10 @@ class CellBalances {
     });
     for (const FacePoint<Dim>& face : boundary) {
       if (face.side < 0 || problem_.known(field, face.side) == Known::value) continue;
-      right_hand_side -= face.area.norm() * problem_.given(field, face.side, face.x);
+      // Slivers beside curved sides in space may count as negative.
+      const double along = face.area.dot(problem_.domain().normal(face.side, face.x));
+      right_hand_side -=
+          std::copysign(face.area.norm(), along) * problem_.given(field, face.side, face.x);
     }
     for (const FaceFlux<Dim>& flux : fluxes_[node.id]) {
       if (flux.side >= 0 && problem_.known(field, flux.side) == Known::flux) continue;
