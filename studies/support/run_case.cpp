@@ -67,11 +67,12 @@ Eigen::MatrixXd nodal_values(const Discretisation<Dim>& scene, const Eigen::Matr
 /// Cell volumes of all nodes of the sites; a mirror image has that of its node.
 template <int Dim>
 Eigen::VectorXd cell_volumes(const Discretisation<Dim>& scene, const Domain<Dim>& domain,
-                             const RunOptions& options) {
+                             const NeighbourSearch<Dim>& engine, const RunOptions& options) {
   const int count = scene.cloud.size();
   if (scene.unknowns.count > count) {
     throw SkipCase("the method needs cell volumes, which ghost nodes have none of");
   }
+  if (scene.sites.node_count() == count) return voronoi_volumes<Dim>(scene.cloud, domain, engine);
   const auto search = make_search<Dim>(options.neighbours, scene.cloud.nodes);
   Eigen::VectorXd volumes = voronoi_volumes<Dim>(scene.cloud, domain, *search);
   volumes.conservativeResize(scene.sites.node_count());
@@ -130,7 +131,7 @@ void choose_stencils(Discretisation<Dim>& scene, const Domain<Dim>& domain,
   if (needs.volumes) {
     double seconds = 0;
     scene.sites.volumes =
-        clock.time(seconds, [&] { return cell_volumes<Dim>(scene, domain, options); });
+        clock.time(seconds, [&] { return cell_volumes<Dim>(scene, domain, *engine, options); });
     times.voronoi += seconds;
     times.prepare += seconds;
   }
