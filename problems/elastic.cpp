@@ -132,7 +132,8 @@ AnyProblem make_elastic(const Options& options) {
 }  // namespace
 
 /// Static elasticity of a body meshed with Gmsh, in 2D or 3D by its mesh, with material, supports
-/// and loads from a case file.
+/// and loads from a case file. Source: thesis (4.1) to (4.4); plane stress by lambda* = 2 lambda mu
+/// / (lambda + 2 mu), Timoshenko & Goodier 1970.
 ProblemEntry problem_elastic() {
   return {{"elastic",
            "static elasticity on a Gmsh mesh, with supports and loads from a case file",

@@ -66,6 +66,7 @@ class ElasticCube final : public ElasticProblem<3> {
 }  // namespace
 
 /// Manufactured displacements in a cube with E = 1000, body forces and tractions derived.
+/// Source: manufactured.
 ProblemEntry problem_elastic_cube() {
   return {
       {"elastic_cube",
