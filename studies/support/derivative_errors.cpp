@@ -63,6 +63,7 @@ template <int Dim>
 void write_errors(const RunOptions& options, const CaseKey& key, const Discretisation<Dim>& scene,
                   const Eigen::MatrixXd& errors) {
   std::vector<NodeArray> arrays;
+  arrays.reserve(static_cast<std::size_t>(scene.derivatives.size()) + 1);
   for (int d = 0; d < scene.derivatives.size(); ++d) {
     arrays.push_back({name_of<Dim>(scene.derivatives[d]) + "_error", errors.row(d).cwiseAbs()});
   }
