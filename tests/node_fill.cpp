@@ -158,7 +158,9 @@ void expect_blue_noise(int level, double count_tolerance) {
   EXPECT_LT(*std::max_element(distances.begin(), distances.end()), 1.01 * h);
   // Probes on a lattice much finer than h find every hole to within 5 %.
   const int side = 10 * level / Dim;
-  const Points<Dim> probes = tensor_lattice<Dim>(graded_axis(side, 1)).nodes;
+  std::array<std::vector<double>, Dim> axes;
+  axes.fill(graded_axis(side, 1));
+  const Points<Dim> probes = tensor_lattice<Dim>(axes).nodes;
   const auto search = make_search<Dim>("nanoflann", cloud.nodes);
   const Stencils near = search->nearest(probes, 1, Ties::cut);
   double largest_hole = 0;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "problems/core/layout.hpp"
+#include "problems/core/transient_problem.hpp"
 #include "studies/support/run_case.hpp"
 
 namespace strongpoint {
@@ -72,9 +73,10 @@ TEST(Skipping, VolumesAreMadeForMethodsThatIntegrateOnly) {
   }
 }
 
-/// Drops each declared derivative in turn and expects the equations to notice.
+/// Drops each declared derivative in turn and expects the equations to notice, those in space of a
+/// problem in time.
 void check_that_dropping_throws(const std::string& spec) {
-  with_problem<SteadyProblem>(spec, "steady", []<int D>(const SteadyProblem<D>& problem) {
+  const auto check = []<int D>(const SteadyProblem<D>& problem) {
     const PointCloud<D> cloud = make_cloud<D>(problem.domain(), "scattered", LayoutRequest{7, 1});
     const auto form = make_form<D>("collocation");
     const auto method = make_method<D>("lsfdm").made;
@@ -84,7 +86,13 @@ void check_that_dropping_throws(const std::string& spec) {
     for (const MultiIndex<D>& alpha : declared) {
       EXPECT_THROW(plan.equations(declared.without(alpha)), std::logic_error) << name_of<D>(alpha);
     }
-  });
+  };
+  if (is_kind<TransientProblem>(spec)) {
+    with_problem<TransientProblem>(spec, "transient",
+                                   [&](const auto& problem) { check(problem.space()); });
+  } else {
+    with_problem<SteadyProblem>(spec, "steady", check);
+  }
 }
 
 TEST(Skipping, ReadingADerivativeThatWasNotDeclaredThrows) {

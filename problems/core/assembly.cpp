@@ -231,6 +231,7 @@ void weigh_rows(const std::vector<double>& row_weights, LinearSystem& system) {
       system.values[i] *= row_weights[row];
     }
     system.right_hand_side[static_cast<Eigen::Index>(row)] *= row_weights[row];
+    system.row_scales[row] *= row_weights[row];
   }
 }
 
@@ -267,6 +268,8 @@ LinearSystem assemble(const EquationList& equations, const Weights& weights,
     largest[row] = scale_row(system.values.data() + begin, count, system.right_hand_side[row]);
   });
   check_rows(equations, scene, largest, system.right_hand_side);
+  system.row_scales.resize(rows);
+  for (int row = 0; row < rows; ++row) system.row_scales[row] = 1 / largest[row];
   if (!equations.row_weights.empty()) weigh_rows(equations.row_weights, system);
   return system;
 }

@@ -119,7 +119,9 @@ Eigen::Matrix<double, Dim, Dim> jacobian(const std::function<Point<Dim>(const Po
 template <int Dim>
 PointCloud<Dim> block_cloud(const Domain<Dim>& domain, const std::vector<double>& axis,
                             const std::array<std::vector<double>, Dim>& ends) {
-  UnitLattice<Dim> lattice = tensor_lattice<Dim>(axis);
+  std::array<std::vector<double>, Dim> axes;
+  axes.fill(axis);
+  UnitLattice<Dim> lattice = tensor_lattice<Dim>(axes);
   lattice.block.axes.fill(axis);
   const std::vector<Block<Dim>> blocks = domain.blocks();
   const std::vector<std::array<int, Dim>> indices = cells_of<Dim>(ends);

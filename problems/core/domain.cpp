@@ -11,6 +11,13 @@ double Domain<Dim>::spacing(const Point<Dim>&, int level) const {
 }
 
 template <int Dim>
+std::array<int, Dim> Domain<Dim>::nodes_along(int level) const {
+  std::array<int, Dim> counts;
+  counts.fill(level);
+  return counts;
+}
+
+template <int Dim>
 std::vector<BoundaryMark<Dim>> Domain<Dim>::marks(const std::vector<int>& sides,
                                                   const Point<Dim>& x) const {
   std::vector<BoundaryMark<Dim>> result;
@@ -32,14 +39,14 @@ std::vector<Block<Dim>> Domain<Dim>::blocks() const {
 }
 
 template <int Dim>
-const std::vector<std::string>& UnitCube<Dim>::sides() const {
+const std::vector<std::string>& Box<Dim>::sides() const {
   static const std::vector<std::string> all{"left", "right", "bottom", "top", "back", "front"};
   static const std::vector<std::string> names(all.begin(), all.begin() + 2 * Dim);
   return names;
 }
 
 template <int Dim>
-std::vector<int> UnitCube<Dim>::sides_at(const Point<Dim>& unit) const {
+std::vector<int> Box<Dim>::sides_at(const Point<Dim>& unit) const {
   std::vector<int> found;
   for (int c = 0; c < Dim; ++c) {
     if (unit[c] == 0) found.push_back(2 * c);
@@ -49,22 +56,23 @@ std::vector<int> UnitCube<Dim>::sides_at(const Point<Dim>& unit) const {
 }
 
 template <int Dim>
-Point<Dim> UnitCube<Dim>::normal(int side, const Point<Dim>&) const {
+Point<Dim> Box<Dim>::normal(int side, const Point<Dim>&) const {
   return (side % 2 == 0 ? -1 : 1) * Point<Dim>::Unit(side / 2);
 }
 
 template <int Dim>
-double UnitCube<Dim>::distance(const Point<Dim>& x) const {
-  const Point<Dim> beyond = (x.array() - 0.5).abs() - 0.5;
+double Box<Dim>::distance(const Point<Dim>& x) const {
+  const Point<Dim> beyond = (x - lengths_ / 2).cwiseAbs() - lengths_ / 2;
   const Point<Dim> outside = beyond.cwiseMax(0);
   return outside.norm() + std::min(beyond.maxCoeff(), 0.0);
 }
 
 template <int Dim>
-std::vector<BoundaryPiece<Dim>> UnitCube<Dim>::pieces() const {
+std::vector<BoundaryPiece<Dim>> Box<Dim>::pieces() const {
   std::vector<BoundaryPiece<Dim>> result;
   for (int side = 0; side < 2 * Dim; ++side) {
-    const auto map = [side](const typename BoundaryPiece<Dim>::Parameter& parameter) {
+    const auto map = [side,
+                      lengths = lengths_](const typename BoundaryPiece<Dim>::Parameter& parameter) {
       const int fixed = side / 2;
       Point<Dim> x;
       x[fixed] = side % 2;
@@ -72,7 +80,7 @@ std::vector<BoundaryPiece<Dim>> UnitCube<Dim>::pieces() const {
       for (int c = 0; c < Dim; ++c) {
         if (c != fixed) x[c] = parameter[next++];
       }
-      return x;
+      return Point<Dim>(x.cwiseProduct(lengths));
     };
     result.push_back({side, map});
   }
@@ -80,24 +88,35 @@ std::vector<BoundaryPiece<Dim>> UnitCube<Dim>::pieces() const {
 }
 
 template <int Dim>
-std::vector<Feature<Dim>> UnitCube<Dim>::features() const {
+std::vector<Feature<Dim>> Box<Dim>::features() const {
   std::vector<Feature<Dim>> result;
   result.reserve(2 * Dim + 1);
   for (int side = 0; side < 2 * Dim; ++side) {
+    const double at = side % 2 * lengths_[side / 2];
     result.push_back(
-        {sides()[side], [side](const Point<Dim>& x) { return std::abs(x[side / 2] - side % 2); }});
+        {sides()[side], [side, at](const Point<Dim>& x) { return std::abs(x[side / 2] - at); }});
   }
-  result.push_back({"corners", [](const Point<Dim>& x) {
-                      return x.cwiseAbs().cwiseMin((x.array() - 1).abs().matrix()).norm();
+  result.push_back({"corners", [lengths = lengths_](const Point<Dim>& x) {
+                      return x.cwiseAbs().cwiseMin((x - lengths).cwiseAbs()).norm();
                     }});
   return result;
+}
+
+template <int Dim>
+std::array<int, Dim> Box<Dim>::nodes_along(int level) const {
+  std::array<int, Dim> counts;
+  for (int c = 0; c < Dim; ++c) {
+    const double cells = (level - 1) * lengths_[c] / lengths_[0];
+    counts[c] = 1 + std::max(1, static_cast<int>(std::lround(cells)));
+  }
+  return counts;
 }
 
 template class Domain<1>;
 template class Domain<2>;
 template class Domain<3>;
-template class UnitCube<1>;
-template class UnitCube<2>;
-template class UnitCube<3>;
+template class Box<1>;
+template class Box<2>;
+template class Box<3>;
 
 }  // namespace strongpoint

@@ -67,6 +67,8 @@ class Domain {
   /// whole; empty when there is one. Each gets a cloud by itself, and these have to meet node on
   /// node at the sides that are `interface_side`.
   virtual std::vector<const Domain*> patches() const { return {}; }
+  /// Nodes along each axis of structured clouds of a level.
+  virtual std::array<int, Dim> nodes_along(int level) const;
   /// Wanted distance between nodes of a scattered cloud of a level; uniform unless a problem grades
   /// it.
   virtual double spacing(const Point<Dim>& x, int level) const;
@@ -79,20 +81,36 @@ class Domain {
   std::vector<BoundaryMark<Dim>> marks(const std::vector<int>& sides, const Point<Dim>& x) const;
 };
 
-/// [0,1]^Dim with sides left, right (x), bottom, top (y), back, front (z).
+/// The box between the origin and a corner, with sides left, right (x), bottom, top (y), back,
+/// front (z). A level counts nodes along x; structured clouds have about the same spacing along the
+/// others.
 template <int Dim>
-class UnitCube : public Domain<Dim> {
+class Box : public Domain<Dim> {
  public:
+  /// Takes the lengths of the sides, all positive.
+  explicit Box(const Point<Dim>& lengths) : lengths_(lengths) {}
+
   const std::vector<std::string>& sides() const override;
-  double measure() const override { return 1; }
-  double reference_length() const override { return 1; }
-  Point<Dim> map(const Point<Dim>& unit) const override { return unit; }
+  double measure() const override { return lengths_.prod(); }
+  double reference_length() const override { return lengths_[0]; }
+  Point<Dim> map(const Point<Dim>& unit) const override { return unit.cwiseProduct(lengths_); }
   std::vector<int> sides_at(const Point<Dim>& unit) const override;
   Point<Dim> normal(int side, const Point<Dim>& x) const override;
   double distance(const Point<Dim>& x) const override;
   std::vector<BoundaryPiece<Dim>> pieces() const override;
+  std::array<int, Dim> nodes_along(int level) const override;
   /// The sides, and `corners`.
   std::vector<Feature<Dim>> features() const override;
+
+ private:
+  Point<Dim> lengths_;
+};
+
+/// [0,1]^Dim.
+template <int Dim>
+class UnitCube : public Box<Dim> {
+ public:
+  UnitCube() : Box<Dim>(Point<Dim>::Ones()) {}
 };
 
 }  // namespace strongpoint

@@ -68,7 +68,7 @@ void ElasticProblem<Dim>::governing(const Place<Dim>& place, EquationWriter<Dim>
       add_equilibrium<Dim>(write, lame, i);
     }
     if (varies()) add_gradient_terms<Dim>(write, gradient, is_mixed() ? 0.0 : 1.0, i);
-    write.equals(-force[i]);
+    write.equals(-force[i], this->inertia(i, place));
   }
   if (is_mixed()) write_constraint(place, write);
 }

@@ -25,6 +25,7 @@ struct EquationList {
   std::vector<std::int64_t> offsets{0};  ///< (rows + 1) into `terms`
   std::vector<Term> terms;
   std::vector<double> right_hand_sides;  ///< (rows)
+  std::vector<double> inertia;           ///< (rows) factors of second time derivatives
   std::vector<double> row_weights;       ///< (rows) factors of rows after scaling, empty for ones
 
   int size() const { return static_cast<int>(right_hand_sides.size()); }
@@ -36,6 +37,7 @@ struct EquationList {
     offsets.resize(1);
     terms.clear();
     right_hand_sides.clear();
+    inertia.clear();
     row_weights.clear();
   }
 };
@@ -78,9 +80,11 @@ class EquationWriter {
     }
     return true;
   }
-  /// Ends the equation: the sum of its terms equals `right_hand_side`.
-  void equals(double right_hand_side) {
+  /// Ends the equation: the sum of its terms equals `right_hand_side`, to which a problem in time
+  /// adds `inertia` times the second time derivative of the value of the row's own field and node.
+  void equals(double right_hand_side, double inertia = 0) {
     list_.right_hand_sides.push_back(right_hand_side);
+    list_.inertia.push_back(inertia);
     list_.offsets.push_back(static_cast<std::int64_t>(list_.terms.size()));
   }
 

@@ -24,6 +24,8 @@ class FluxProblem : public SteadyProblem<Dim> {
   virtual bool has_flux(int) const { return true; }
   /// The source f_i at a place.
   virtual double source(int field, const Place<Dim>& place) const = 0;
+  /// The inertia of a field at a place, mass over volume: in time div sigma = f + inertia u''.
+  virtual double inertia(int, const Place<Dim>&) const { return 0; }
   /// What is known of a field on a side. Where sides meet, a given value wins.
   virtual Known known(int field, int side) const = 0;
   /// The value known at a point of a side, or the flux sum_j sigma_ij n_j through it, n being the

@@ -18,6 +18,7 @@ struct LinearSystem {
   std::vector<std::int64_t> columns;     ///< (entries)
   std::vector<double> values;            ///< (entries)
   Eigen::VectorXd right_hand_side;       ///< (rows)
+  std::vector<double> row_scales;        ///< (rows) what each equation was multiplied by
   int fields = 1;                        ///< unknown = node * fields + field
   std::int64_t width = 0;                ///< number of unknowns; 0: as many as rows
   std::vector<int> order;  ///< (nodes) in which incomplete factors eliminate them; empty: as is

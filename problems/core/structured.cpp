@@ -26,19 +26,31 @@ std::vector<double> graded_axis(int n, double ratio) {
 }
 
 template <int Dim>
-UnitLattice<Dim> tensor_lattice(const std::vector<double>& axis) {
-  const int n = static_cast<int>(axis.size());
+UnitLattice<Dim> tensor_lattice(const std::array<std::vector<double>, Dim>& axes) {
   UnitLattice<Dim> lattice;
-  lattice.block.shape.fill(n);
-  lattice.nodes.resize(Dim, static_cast<Eigen::Index>(std::lround(std::pow(n, Dim))));
-  for (Eigen::Index id = 0; id < lattice.nodes.cols(); ++id) {
+  Eigen::Index count = 1;
+  for (int c = 0; c < Dim; ++c) {
+    lattice.block.shape[c] = static_cast<int>(axes[c].size());
+    count *= lattice.block.shape[c];
+  }
+  lattice.nodes.resize(Dim, count);
+  for (Eigen::Index id = 0; id < count; ++id) {
     Eigen::Index rest = id;
     for (int c = Dim - 1; c >= 0; --c) {
-      lattice.nodes(c, id) = axis[rest % n];
+      const int n = lattice.block.shape[c];
+      lattice.nodes(c, id) = axes[c][rest % n];
       rest /= n;
     }
   }
   return lattice;
+}
+
+template <int Dim>
+UnitLattice<Dim> graded_lattice(const Domain<Dim>& domain, int level, double ratio) {
+  const std::array<int, Dim> counts = domain.nodes_along(level);
+  std::array<std::vector<double>, Dim> axes;
+  for (int c = 0; c < Dim; ++c) axes[c] = graded_axis(counts[c], ratio);
+  return tensor_lattice<Dim>(axes);
 }
 
 template <int Dim>
@@ -58,9 +70,13 @@ PointCloud<Dim> structured_cloud(const Domain<Dim>& domain, const UnitLattice<Di
   return cloud;
 }
 
-template UnitLattice<1> tensor_lattice(const std::vector<double>&);
-template UnitLattice<2> tensor_lattice(const std::vector<double>&);
-template UnitLattice<3> tensor_lattice(const std::vector<double>&);
+#define STRONGPOINT_INSTANTIATE(Dim) /* the same for each dimension */                        \
+  template UnitLattice<Dim> tensor_lattice<Dim>(const std::array<std::vector<double>, Dim>&); \
+  template UnitLattice<Dim> graded_lattice(const Domain<Dim>&, int, double)
+STRONGPOINT_INSTANTIATE(1);
+STRONGPOINT_INSTANTIATE(2);
+STRONGPOINT_INSTANTIATE(3);
+#undef STRONGPOINT_INSTANTIATE
 template PointCloud<1> structured_cloud(const Domain<1>&, const UnitLattice<1>&);
 template PointCloud<2> structured_cloud(const Domain<2>&, const UnitLattice<2>&);
 template PointCloud<3> structured_cloud(const Domain<3>&, const UnitLattice<3>&);

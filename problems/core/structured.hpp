@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "problems/core/domain.hpp"
@@ -17,9 +18,13 @@ struct UnitLattice {
 /// spacing, 1 for equal ones. Both ends are exact.
 std::vector<double> graded_axis(int n, double ratio);
 
-/// Makes the tensor product of one list of coordinates with itself.
+/// Makes the tensor product of lists of coordinates, one an axis.
 template <int Dim>
-UnitLattice<Dim> tensor_lattice(const std::vector<double>& axis);
+UnitLattice<Dim> tensor_lattice(const std::array<std::vector<double>, Dim>& axes);
+
+/// Makes the lattice of a level of a domain, with spacings as in `graded_axis` along every axis.
+template <int Dim>
+UnitLattice<Dim> graded_lattice(const Domain<Dim>& domain, int level, double ratio);
 
 /// Maps a lattice into a domain. A node with a unit coordinate of exactly 0 or 1 gets the marks of
 /// the sides there. Throws CaseError when the map makes nodes coincide or is not finite.

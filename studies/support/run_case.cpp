@@ -201,6 +201,15 @@ std::unique_ptr<Discretisation<Dim>> discretise(const SteadyProblem<Dim>& proble
 }
 
 template <int Dim>
+Solution<Dim> solution_of(const Discretisation<Dim>& scene, const Eigen::VectorXd& unknowns) {
+  const Eigen::Index fields = unknowns.size() / scene.unknowns.count;
+  const Eigen::MatrixXd parameters = scene.unknowns.spread(
+      Eigen::Map<const Eigen::MatrixXd>(unknowns.data(), fields, scene.unknowns.count));
+  return {scene.cloud, nodal_values(scene, parameters), parameters, scene.weights,
+          scene.derivatives};
+}
+
+template <int Dim>
 CaseResult solve_steady(const SteadyProblem<Dim>& problem, const CaseKey& key,
                         const RunOptions& options) {
   const StageClock clock(options.threads);
@@ -220,10 +229,7 @@ CaseResult solve_steady(const SteadyProblem<Dim>& problem, const CaseKey& key,
   times.peak_mb = peak_memory_mb();
   times.residual = linear.residual;
 
-  const Eigen::MatrixXd parameters = scene.unknowns.spread(
-      Eigen::Map<const Eigen::MatrixXd>(linear.x.data(), field_count, scene.unknowns.count));
-  const Solution<Dim> solution{scene.cloud, nodal_values(scene, parameters), parameters,
-                               scene.weights, scene.derivatives};
+  const Solution<Dim> solution = solution_of<Dim>(scene, linear.x);
   if (options.vtk) {
     const Choices<Dim> choices(key);
     write_vtu<Dim>(*options.vtk, key, scene.cloud.nodes,
@@ -274,6 +280,9 @@ StageTimes fastest(const StageTimes& a, const StageTimes& b) {
 template CaseResult solve_steady(const SteadyProblem<3>&, const CaseKey&, const RunOptions&);
 template CaseResult solve_steady(const SteadyProblem<2>&, const CaseKey&, const RunOptions&);
 template CaseResult solve_steady(const SteadyProblem<1>&, const CaseKey&, const RunOptions&);
+template Solution<1> solution_of(const Discretisation<1>&, const Eigen::VectorXd&);
+template Solution<2> solution_of(const Discretisation<2>&, const Eigen::VectorXd&);
+template Solution<3> solution_of(const Discretisation<3>&, const Eigen::VectorXd&);
 template PointCloud<1> make_case_cloud(const Domain<1>&, const CaseKey&, const RunOptions&);
 template PointCloud<2> make_case_cloud(const Domain<2>&, const CaseKey&, const RunOptions&);
 template PointCloud<3> make_case_cloud(const Domain<3>&, const CaseKey&, const RunOptions&);

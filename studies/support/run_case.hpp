@@ -60,6 +60,10 @@ std::unique_ptr<Discretisation<Dim>> discretise(const SteadyProblem<Dim>& proble
                                                 const CaseKey& key, const RunOptions& options,
                                                 StageTimes& times, Upto upto = Upto::weights);
 
+/// The fields at the nodes from the values of all unknowns; refers to the scene.
+template <int Dim>
+Solution<Dim> solution_of(const Discretisation<Dim>& scene, const Eigen::VectorXd& unknowns);
+
 /// Makes the cloud of a case.
 template <int Dim>
 PointCloud<Dim> make_case_cloud(const Domain<Dim>& domain, const CaseKey& key,
@@ -78,6 +82,16 @@ CaseResult solve_steady(const SteadyProblem<Dim>& problem, const CaseKey& key,
 /// With `options.vtk` the fields at the nodes are written.
 /// Throws SkipCase and CaseError.
 CaseResult run_steady_case(const CaseKey& key, const RunOptions& options);
+
+/// True when a problem is of a kind, as `with_problem` takes it.
+template <template <int> class Kind>
+bool is_kind(const std::string& spec) {
+  return std::visit(
+      []<int Dim>(const std::unique_ptr<Problem<Dim>>& problem) {
+        return dynamic_cast<const Kind<Dim>*>(problem.get()) != nullptr;
+      },
+      make_problem(spec).made);
+}
 
 /// Calls `function(problem)` with the problem of a spec as `Kind<Dim>`, or throws SkipCase saying
 /// that the study wants a `kind` problem.

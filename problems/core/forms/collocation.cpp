@@ -92,7 +92,7 @@ class CollocationRows {
 
   static void copy_row(const Rows& rows, int row, EquationWriter<Dim>& write) {
     write.add_row(rows.list.row(row));
-    write.equals(rows.list.right_hand_sides[row]);
+    write.equals(rows.list.right_hand_sides[row], rows.list.inertia[row]);
   }
 
   /// True when a mirrored plane through the node reverses a field, which is zero there.
@@ -137,7 +137,8 @@ class CollocationRows {
       }
       const double factor = -alpha_ * ghosts_.spacing[node.id];
       write.add_row(scratch.governing.list.row(f), factor);
-      write.equals(right_hand_side + factor * scratch.governing.list.right_hand_sides[f]);
+      write.equals(right_hand_side + factor * scratch.governing.list.right_hand_sides[f],
+                   factor * scratch.governing.list.inertia[f]);
     }
   }
 
@@ -168,7 +169,9 @@ class CollocationRows {
         write.add_unknown(cloud_.size() + ghost, f, 1);
         write.equals(0);
       } else {
-        copy_row(scratch.governing, f, write);
+        // A given value has no acceleration, unless it changes in time.
+        write.add_row(scratch.governing.list.row(f));
+        write.equals(scratch.governing.list.right_hand_sides[f]);
       }
     }
   }

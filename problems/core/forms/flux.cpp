@@ -86,7 +86,7 @@ class CellBalances {
           write_whole.at(i);
           problem_.governing(node.place(), write_whole);
           write.add_row(whole.row(f));
-          write.equals(whole.right_hand_sides[f]);
+          write.equals(whole.right_hand_sides[f], whole.inertia[f]);
         } else {
           write_balance(node, f, write);
         }
@@ -140,7 +140,8 @@ class CellBalances {
       write.at(flux.point);
       problem_.flux(field, {flux.x, node.patch}, flux.area, write);
     }
-    write.equals(right_hand_side);
+    const double inertia = problem_.inertia(field, node.place());  // lumped at the node
+    write.equals(right_hand_side, inertia == 0 ? 0 : inertia * cell_measure<Dim>(node.x, boundary));
   }
 };
 

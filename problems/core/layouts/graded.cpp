@@ -12,7 +12,7 @@ LayoutEntry layout_graded() {
       []<int Dim>(const Domain<Dim>& domain, const Options& options, const LayoutRequest& request) {
         // Beyond a thousand either way even coarse clouds come close to coincident nodes.
         const double ratio = options.number("ratio", 1e-3, 1e3);
-        return structured_cloud(domain, tensor_lattice<Dim>(graded_axis(request.level, ratio)));
+        return structured_cloud(domain, graded_lattice<Dim>(domain, request.level, ratio));
       });
 }
 

@@ -8,7 +8,7 @@ LayoutEntry layout_grid() {
   return layout_entry(
       {"grid", "structured, equidistant before the domain's map", {}},
       []<int Dim>(const Domain<Dim>& domain, const Options&, const LayoutRequest& request) {
-        return structured_cloud(domain, tensor_lattice<Dim>(graded_axis(request.level, 1)));
+        return structured_cloud(domain, graded_lattice<Dim>(domain, request.level, 1));
       });
 }
 

@@ -15,12 +15,14 @@ enum class BoundaryNodes {
 /// drawn for nodes in ascending order and for all coordinates of a node, used or not, so that
 /// interior nodes do not depend on what boundary nodes do.
 template <int Dim>
-void perturb(const Domain<Dim>& domain, double reach, BoundaryNodes boundary,
-             std::mt19937_64& generator, Points<Dim>& unit) {
+void perturb(const Domain<Dim>& domain, double amount, BoundaryNodes boundary,
+             std::mt19937_64& generator, UnitLattice<Dim>& lattice) {
+  Points<Dim>& unit = lattice.nodes;
   for (Eigen::Index i = 0; i < unit.cols(); ++i) {
     const Point<Dim> before = unit.col(i);
     const Eigen::Array<bool, Dim, 1> on_face = before.array() == 0 || before.array() == 1;
     for (int c = 0; c < Dim; ++c) {
+      const double reach = amount / (lattice.block.shape[c] - 1);
       const double shift = reach * (2 * uniform01(generator) - 1);
       const bool is_free = boundary == BoundaryNodes::slide ? !on_face[c] : !on_face.any();
       if (is_free) unit(c, i) += shift;
@@ -49,8 +51,8 @@ LayoutEntry layout_perturbed() {
         const BoundaryNodes boundary = options.choice<BoundaryNodes>(
             "boundary", {{"fixed", BoundaryNodes::fixed}, {"slide", BoundaryNodes::slide}});
         std::mt19937_64 generator(seed_of(options, request));
-        UnitLattice<Dim> lattice = tensor_lattice<Dim>(graded_axis(request.level, 1));
-        perturb(domain, amount / (request.level - 1), boundary, generator, lattice.nodes);
+        UnitLattice<Dim> lattice = graded_lattice<Dim>(domain, request.level, 1);
+        perturb(domain, amount, boundary, generator, lattice);
         return structured_cloud(domain, lattice);
       });
 }
