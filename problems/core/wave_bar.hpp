@@ -28,18 +28,23 @@ struct BarPulse {
   }
 
  private:
-  /// f / F0: reflections at distances 1, 3, 5, ... with alternating signs.
-  double travelled(double s) const {
+  /// Sum of a function of the time since each reflection, with alternating signs; the wave has gone
+  /// distances of 1, 3, 5, ... when it is reflected.
+  template <class Function>
+  double over_reflections(double s, const Function& function) const {
     double sum = 0;
-    double sign = 1;
-    for (double way = s - 1; way > 0; way -= 2, sign = -sign) sum += sign * impulse(way / speed);
-    return speed * sum;
-  }
-  double slope(double s) const {
-    double sum = 0;
-    double sign = 1;
-    for (double way = s - 1; way > 0; way -= 2, sign = -sign) sum += sign * shape(way / speed);
+    for (int n = 0; s - 1 - 2 * n > 0; ++n) {
+      sum += (n % 2 == 0 ? 1 : -1) * function((s - 1 - 2 * n) / speed);
+    }
     return sum;
+  }
+  /// f / F0.
+  double travelled(double s) const {
+    return speed * over_reflections(s, [this](double t) { return impulse(t); });
+  }
+  /// f' / F0.
+  double slope(double s) const {
+    return over_reflections(s, [this](double t) { return shape(t); });
   }
   /// Integral of the shape from 0 to t.
   double impulse(double t) const {
