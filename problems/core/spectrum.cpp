@@ -3,8 +3,6 @@
 #include <Spectra/GenEigsSolver.h>
 #include <algorithm>
 
-#include <Eigen/Eigenvalues>
-
 #include "methods/core/error.hpp"
 
 namespace strongpoint {
@@ -32,10 +30,6 @@ class OperatorProduct {
 };
 
 }  // namespace
-
-Eigen::VectorXcd dense_eigenvalues(const Motion& motion) {
-  return dense_operator(motion).eigenvalues();
-}
 
 double growth_rate(const Eigen::VectorXcd& eigenvalues) {
   return eigenvalues.cwiseSqrt().real().maxCoeff();

@@ -1,0 +1,10 @@
+# LAPACK's interface for C; Debian 12 ships no CMake package. Gives the target Lapacke::Lapacke.
+find_path(Lapacke_INCLUDE_DIR lapacke.h)
+find_library(Lapacke_LIBRARY lapacke)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(Lapacke REQUIRED_VARS Lapacke_LIBRARY Lapacke_INCLUDE_DIR)
+if(Lapacke_FOUND AND NOT TARGET Lapacke::Lapacke)
+  add_library(Lapacke::Lapacke INTERFACE IMPORTED)
+  target_include_directories(Lapacke::Lapacke SYSTEM INTERFACE ${Lapacke_INCLUDE_DIR})
+  target_link_libraries(Lapacke::Lapacke INTERFACE ${Lapacke_LIBRARY})
+endif()
