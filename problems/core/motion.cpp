@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "methods/core/error.hpp"
+#include "problems/core/moving_rows.hpp"
 #include "problems/core/sparse_factor.hpp"
 
 namespace strongpoint {
@@ -15,11 +16,13 @@ namespace {
 using ProductMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 
 void check(const SparseFactor& factor, const char* what, const char* remedy) {
-  if (factor.fault() == SparseFactor::Fault::none) return;
-  const char* fault = factor.fault() == SparseFactor::Fault::singular ? "is singular"
-                      : factor.fault() == SparseFactor::Fault::out_of_memory
-                          ? "does not fit into memory"
-                          : "cannot be factorised";
+  using Fault = SparseFactor::Fault;
+  constexpr double least_ratio = 1e-15;  // pivots below are round-off of the largest
+  const bool is_round_off = factor.pivot_ratio() < least_ratio;
+  if (factor.fault() == Fault::none && !is_round_off) return;
+  const char* fault = factor.fault() == Fault::out_of_memory ? "does not fit into memory"
+                      : factor.fault() == Fault::other       ? "cannot be factorised"
+                                                             : "is singular";
   throw CaseError(fmt::format("{} {}; {}", what, fault, remedy));
 }
 
@@ -67,57 +70,76 @@ Matrix rows_of(const LinearSystem& system, const std::vector<int>& rows, const P
   return result;
 }
 
+/// Fields of every node that moves, 1 where some move in part.
+int fields_that_move(const std::vector<int>& moving, int fields) {
+  const auto count = static_cast<int>(moving.size());
+  if (count % fields != 0) return 1;
+  for (int i = 0; i < count; ++i) {
+    const int first = moving[i - i % fields];
+    if (first % fields != 0 || moving[i] != first + i % fields) return 1;
+  }
+  return fields;
+}
+
+/// [top; bottom]
+RowMatrix stacked(const RowMatrix& top, const RowMatrix& bottom) {
+  RowMatrix matrix(top.rows() + bottom.rows(), top.cols());
+  matrix.reserve(top.nonZeros() + bottom.nonZeros());
+  for (const auto& [part, first] : {std::pair{&top, Eigen::Index{0}}, {&bottom, top.rows()}}) {
+    for (Eigen::Index row = 0; row < part->rows(); ++row) {
+      matrix.startVec(first + row);
+      for (RowMatrix::InnerIterator entry(*part, row); entry; ++entry) {
+        matrix.insertBack(first + row, entry.col()) = entry.value();
+      }
+    }
+  }
+  matrix.finalize();
+  return matrix;
+}
+
 }  // namespace
 
 /// Unknowns that move come first, the rest behind them.
 struct CondensedMotion::Blocks {
   Places places;
-  std::vector<int> resting;         ///< the other unknowns, ascending
-  ProductMatrix moving_rows;        ///< (size, all) M_d^-1 [A_II, A_IB], M_d the diagonal inertia
-  ProductMatrix resting_by_moving;  ///< (rest, size) A_BI
-  Factored resting_rows;            ///< A_BB
-  Eigen::VectorXd resting_data;     ///< (rest) right-hand sides of the rows B
-  RowMatrix values;                 ///< (size, all) V, empty where unknowns are values
-  RowMatrix constraints;            ///< (rest, all) [A_BI, A_BB]
-  Factored mass;                    ///< [V; constraints], where unknowns are no values
-  mutable Eigen::VectorXd all, rest, right;  ///< room for products
+  std::vector<int> resting;               ///< the other unknowns, ascending
+  std::optional<MovingRows> moving_rows;  ///< (size, all) [A_II, A_IB] over the inertia
+  RowMatrix constraints;                  ///< (rest, all) [A_BI, A_BB]
+  ProductMatrix resting_by_moving;        ///< (rest, size) -A_BI
+  Factored resting_rows;                  ///< A_BB
+  Eigen::VectorXd resting_data;           ///< (rest) right-hand sides of the rows B
+  RowMatrix values;                       ///< (size, all) V, empty where unknowns are values
+  Factored valued;                        ///< [V; constraints], where unknowns are no values
+  mutable Eigen::VectorXd moving, rest, all, right;  ///< room for products
 
-  bool has_mass() const { return values.rows() > 0; }
+  bool has_values() const { return values.rows() > 0; }
 
-  /// [top; constraints]
-  RowMatrix bordered(const RowMatrix& top) const {
-    RowMatrix matrix(top.rows() + constraints.rows(), top.cols());
-    matrix.reserve(top.nonZeros() + constraints.nonZeros());
-    for (const auto& [part, first] :
-         {std::pair{&top, Eigen::Index{0}}, {&constraints, top.rows()}}) {
-      for (Eigen::Index row = 0; row < part->rows(); ++row) {
-        matrix.startVec(first + row);
-        for (RowMatrix::InnerIterator entry(*part, row); entry; ++entry) {
-          matrix.insertBack(first + row, entry.col()) = entry.value();
-        }
-      }
+  /// The unknowns that move when their nodes have the values u and the data of the rows B are
+  /// `data` times their size; `rest` becomes the others.
+  const Eigen::VectorXd& complete(const Eigen::VectorXd& u, double data) const {
+    if (has_values()) {
+      right.head(u.size()) = u;
+      right.tail(rest.size()) = data * resting_data;
+      valued.solve(right.data(), all.data());
+      moving = all.head(u.size());
+      rest = all.tail(rest.size());
+      return moving;
     }
-    matrix.finalize();
-    return matrix;
+    if (rest.size() > 0) {
+      right.noalias() = resting_by_moving * u;
+      if (data != 0) right += data * resting_data;
+      resting_rows.solve(right.data(), rest.data());
+    }
+    return u;
   }
 
-  /// Fills `all` with u and what the rows B say of the rest when their data are `data` times
-  /// their size.
-  void complete(const Eigen::VectorXd& u, double data) const {
-    all.head(u.size()) = u;
-    if (rest.size() == 0) return;
-    rest.noalias() = -(resting_by_moving * u);
-    if (data != 0) rest += data * resting_data;
-    resting_rows.solve(rest.data(), all.data() + u.size());
-  }
-
-  /// M^-1 of accelerations times diagonal inertia.
-  void divide_by_mass(Eigen::VectorXd& accelerations) const {
-    if (!has_mass()) return;
-    right.head(accelerations.size()) = accelerations;
-    right.tail(rest.size()).setZero();
-    mass.solve(right.data(), all.data());
-    accelerations = all.head(accelerations.size());
+  /// Room for products, with as much as the way to complete unknowns needs.
+  void make_room(Eigen::Index size) {
+    const auto others = static_cast<Eigen::Index>(resting.size());
+    rest.setZero(others);
+    moving.setZero(has_values() ? size : 0);
+    all.setZero(has_values() ? size + others : 0);
+    right.setZero(has_values() ? size + others : others);
   }
 };
 
@@ -143,85 +165,79 @@ CondensedMotion::CondensedMotion(const LinearSystem& system, const std::vector<d
   }
   const auto per_mass = [&](int row) { return 1 / (inertia[row] * system.row_scales[row]); };
   const auto as_is = [](int) { return 1.0; };
-  blocks.moving_rows = rows_of<ProductMatrix>(system, moving_, blocks.places, per_mass);
+  blocks.moving_rows.emplace(rows_of<RowMatrix>(system, moving_, blocks.places, per_mass),
+                             fields_that_move(moving_, system.fields));
   blocks.constraints = rows_of<RowMatrix>(system, blocks.resting, blocks.places, as_is);
-  const auto rest = static_cast<Eigen::Index>(blocks.resting.size());
-  blocks.resting_by_moving = blocks.constraints.leftCols(size());
-  blocks.resting_rows.matrix = blocks.constraints.rightCols(rest);
   blocks.resting_data = system.right_hand_side(blocks.resting);
-  blocks.all.setZero(count);
-  blocks.rest.setZero(rest);
-  blocks.right.setZero(count);
-  if (rest > 0) {
-    blocks.resting_rows.compute("the block of the boundary conditions",
-                                "take stencils that hold the boundary nodes they belong to");
-  }
   if (values != nullptr) {
     const auto by_scale = [&](int row) { return 1 / values->row_scales[row]; };
     blocks.values = rows_of<RowMatrix>(*values, moving_, blocks.places, by_scale);
-    blocks.mass.matrix = blocks.bordered(blocks.values);
-    blocks.mass.compute("the matrix of the nodal values", "take other stencils");
+    blocks.valued.matrix = stacked(blocks.values, blocks.constraints);
+    blocks.valued.compute("the matrix of nodal values and boundary conditions",
+                          "take other stencils");
+  } else if (!blocks.resting.empty()) {
+    blocks.resting_by_moving = -blocks.constraints.leftCols(size());
+    blocks.resting_rows.matrix =
+        blocks.constraints.rightCols(static_cast<Eigen::Index>(blocks.resting.size()));
+    blocks.resting_rows.compute("the block of the boundary conditions",
+                                "take stencils that hold the boundary nodes they belong to");
   }
-  blocks.complete(Eigen::VectorXd::Zero(size()), 1);
-  load_ = blocks.moving_rows * blocks.all;
+  blocks.make_room(size());
+  load_.resize(size());
+  blocks.moving_rows->multiply(blocks.complete(Eigen::VectorXd::Zero(size()), 1), blocks.rest,
+                               load_);
   for (int i = 0; i < size(); ++i) {
     load_[i] -= system.right_hand_side[moving_[i]] * per_mass(moving_[i]);
   }
-  blocks.divide_by_mass(load_);
 }
 
 CondensedMotion::~CondensedMotion() = default;
 
 void CondensedMotion::apply(const Eigen::VectorXd& u, Eigen::VectorXd& product) const {
-  blocks_->complete(u, 0);
-  product.noalias() = blocks_->moving_rows * blocks_->all;
-  blocks_->divide_by_mass(product);
+  const Eigen::VectorXd& moving = blocks_->complete(u, 0);
+  blocks_->moving_rows->multiply(moving, blocks_->rest, product);
 }
 
 Eigen::VectorXd CondensedMotion::all_unknowns(const Eigen::VectorXd& u, double load) const {
-  blocks_->complete(u, load);
-  Eigen::VectorXd unknowns(blocks_->all.size());
-  for (Eigen::Index i = 0; i < unknowns.size(); ++i)
-    unknowns[i] = blocks_->all[blocks_->places.of[i]];
+  const Eigen::VectorXd& moving = blocks_->complete(u, load);
+  const std::vector<int>& place = blocks_->places.of;
+  Eigen::VectorXd unknowns(static_cast<Eigen::Index>(place.size()));
+  for (Eigen::Index i = 0; i < unknowns.size(); ++i) {
+    unknowns[i] = place[i] < size() ? moving[place[i]] : blocks_->rest[place[i] - size()];
+  }
   return unknowns;
 }
 
-Eigen::VectorXd CondensedMotion::from_values(const Eigen::VectorXd& values) const {
-  Eigen::VectorXd u = values(moving_);
-  blocks_->divide_by_mass(u);
-  return u;
-}
-
-/// [V - factor A; A_BI, A_BB] [x; .] = [M b; 0], V being the identity where unknowns are values.
+/// [V - factor A; C] x = [b; 0], V being the identity where unknowns are values, and V x.
 class CondensedMotion::Shifted final : public ShiftedMotion {
  public:
   Shifted(const Blocks& blocks, double factor) : blocks_(blocks) {
-    RowMatrix top = (-factor * blocks.moving_rows).cast<double>();
-    RowMatrix mass = blocks.values;
-    if (!blocks.has_mass()) {
-      mass.resize(top.rows(), top.cols());
-      mass.setIdentity();
+    RowMatrix top = blocks.moving_rows->scaled(-factor);
+    RowMatrix values = blocks.values;
+    if (!blocks.has_values()) {
+      values.resize(top.rows(), top.cols());
+      values.setIdentity();
     }
-    top += mass;
-    factored_.matrix = blocks.bordered(top);
+    top += values;
+    factored_.matrix = stacked(top, blocks.constraints);
     factored_.compute("the matrix of the shifted motion", "take another time step");
+    right_.setZero(top.cols());
+    all_.setZero(top.cols());
   }
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const override {
-    Eigen::VectorXd& right = blocks_.right;
-    if (blocks_.has_mass()) {
-      blocks_.complete(b, 0);
-      right.head(b.size()).noalias() = blocks_.values * blocks_.all;
+    right_.head(b.size()) = b;
+    factored_.solve(right_.data(), all_.data());
+    if (blocks_.has_values()) {
+      x.noalias() = blocks_.values * all_;
     } else {
-      right.head(b.size()) = b;
+      x = all_.head(b.size());
     }
-    right.tail(blocks_.rest.size()).setZero();
-    factored_.solve(right.data(), blocks_.all.data());
-    x = blocks_.all.head(b.size());
   }
 
  private:
   const Blocks& blocks_;
   Factored factored_;
+  mutable Eigen::VectorXd right_, all_;
 };
 
 std::unique_ptr<ShiftedMotion> CondensedMotion::shifted(double factor) const {

@@ -43,11 +43,13 @@ class Motion {
 /// K as a matrix, (size, size); costs `size` products.
 Eigen::MatrixXd dense_operator(const Motion& motion);
 
-/// The motion of a discrete system, whose rows without inertia hold at any time and are condensed:
-/// K = M^-1 (A_II - A_IB A_BB^-1 A_BI), with the block A_BB factorised once. Where unknowns are no
-/// nodal values, M is V_II - V_IB A_BB^-1 A_BI with the rows V that give the values, and each
-/// product solves with it. Source: thesis (4.11) to (4.13), where K_IB K_BB^-1 ubar has the wrong
-/// sign on the right.
+/// The motion of a discrete system in the nodal values that have inertia. Rows without inertia hold
+/// at any time and are condensed: K = A_II - A_IB A_BB^-1 A_BI over the inertia, with the block
+/// A_BB factorised once. Where unknowns are no nodal values, the rows V that give the values join
+/// in: K u = [A_II, A_IB] x with [V; A_BI, A_BB] x = [u; 0], and each product solves with this
+/// matrix. Boundary data then act on the values as they are, with no term in their second
+/// derivative. Source: thesis (4.11) to (4.13), where K_IB K_BB^-1 ubar has the wrong sign on the
+/// right.
 class CondensedMotion final : public Motion {
  public:
   /// Takes the assembled system, the inertia of its rows as the equations state it, and the rows of
@@ -63,14 +65,13 @@ class CondensedMotion final : public Motion {
   const Eigen::VectorXd& load() const override { return load_; }
   std::unique_ptr<ShiftedMotion> shifted(double factor) const override;
 
-  /// The unknowns of the system that move, ascending.
+  /// The unknowns of the system whose values move, ascending.
   const std::vector<int>& moving() const { return moving_; }
-  /// All unknowns of the system when the moving ones are u and the data are multiplied by `load`.
+  /// All unknowns of the system when the moving values are u and the data are multiplied by `load`.
   /// Source: thesis (4.12).
   Eigen::VectorXd all_unknowns(const Eigen::VectorXd& u, double load) const;
-  /// The unknowns that move, from nodal values of all unknowns of the system: themselves where
-  /// these are values.
-  Eigen::VectorXd from_values(const Eigen::VectorXd& values) const;
+  /// The moving ones of the nodal values of all unknowns of the system.
+  Eigen::VectorXd from_values(const Eigen::VectorXd& values) const { return values(moving_); }
 
  private:
   struct Blocks;

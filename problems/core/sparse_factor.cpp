@@ -63,8 +63,10 @@ SparseFactor::SparseFactor(const Eigen::Map<const RowMatrix>& matrix)
   SuiteSparse_long status =
       umfpack_dl_symbolic(n, n, offsets, columns, values, &objects_->symbolic, control, nullptr);
   if (status == UMFPACK_OK) {
+    std::array<double, UMFPACK_INFO> info{};
     status = umfpack_dl_numeric(offsets, columns, values, objects_->symbolic, &objects_->numeric,
-                                control, nullptr);
+                                control, info.data());
+    pivot_ratio_ = info[UMFPACK_RCOND];
   }
   umfpack_dl_free_symbolic(&objects_->symbolic);
   status_ = static_cast<int>(status);

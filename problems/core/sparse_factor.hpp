@@ -26,6 +26,9 @@ class SparseFactor {
   Fault fault() const { return fault_; }
   /// UMFPACK's own word for the fault.
   int status() const { return status_; }
+  /// UMFPACK's estimate of the reciprocal condition, the smallest over the largest pivot of the
+  /// rows as it scales them.
+  double pivot_ratio() const { return pivot_ratio_; }
   /// Solves A x = b, n numbers each, without allocating; `refined`: with steps of iterative
   /// refinement, as one solves once. Throws std::logic_error for factors with a fault. Not to be
   /// called from several threads.
@@ -38,6 +41,7 @@ class SparseFactor {
   std::unique_ptr<Objects> objects_;
   Fault fault_ = Fault::none;
   int status_ = 0;
+  double pivot_ratio_ = 0;
 };
 
 }  // namespace strongpoint
