@@ -45,13 +45,19 @@ std::string wrapped(const std::string& text, const std::string& indent) {
   return result + line + '\n';
 }
 
-/// Variants of a quantity (an algorithm, say) are told apart by the extra columns that hold words.
-std::string label_of(const Row& row) {
+/// Variants of a quantity (an algorithm, say) are told apart by the extra columns that the study
+/// names, or else by those that hold words.
+std::string label_of(const Row& row, const Study& study) {
   std::string label = row.quantity;
-  for (const std::string& text : row.extra) {
-    if (!text.empty() && std::isalpha(static_cast<unsigned char>(text.front()))) {
-      label += " " + text;
-    }
+  const std::vector<std::string>& chosen = study.variant_columns;
+  for (std::size_t i = 0; i < row.extra.size(); ++i) {
+    const std::string& text = row.extra[i];
+    const std::string& column = study.extra_columns[i];
+    if (text.empty()) continue;
+    const bool is_word = std::isalpha(static_cast<unsigned char>(text.front())) != 0;
+    const bool is_chosen =
+        chosen.empty() ? is_word : std::find(chosen.begin(), chosen.end(), column) != chosen.end();
+    if (is_chosen) label += is_word ? " " + text : fmt::format(" {}={}", column, text);
   }
   return label;
 }
@@ -62,7 +68,7 @@ struct Line {
   std::vector<const Row*> rows;
 };
 
-std::vector<Line> lines_of(const Block& block) {
+std::vector<Line> lines_of(const Block& block, const Study& study) {
   std::vector<Line> lines;
   std::map<std::pair<std::string, int>, std::size_t> known;
   for (std::size_t level = 0; level < block.size(); ++level) {
@@ -70,10 +76,10 @@ std::vector<Line> lines_of(const Block& block) {
     for (const Row& row : *block[level]) {
       const auto id = std::pair{row.quantity, occurrences[row.quantity]++};
       const auto [place, added] = known.emplace(id, lines.size());
-      if (added) lines.push_back({label_of(row), std::vector<const Row*>(block.size())});
+      if (added) lines.push_back({label_of(row, study), std::vector<const Row*>(block.size())});
       Line& line = lines[place->second];
       line.rows[level] = &row;
-      if (row.value) line.label = label_of(row);
+      if (row.value) line.label = label_of(row, study);
     }
   }
   return lines;
@@ -195,7 +201,7 @@ std::string block_text(const Block& block, const Study& study) {
     return std::any_of(rows->begin(), rows->end(),
                        [](const Row& row) { return row.status == Status::ok; });
   });
-  const std::vector<Line> lines = any ? lines_of(block) : std::vector<Line>();
+  const std::vector<Line> lines = any ? lines_of(block, study) : std::vector<Line>();
   std::size_t label_width = least_label_width;
   for (const Line& line : lines) label_width = std::max(label_width, line.label.size());
   const std::size_t room = line_width - (study.rated ? slope_width : 0);

@@ -80,7 +80,10 @@ struct Study {
   bool rated = true;                       ///< fills `rate` from level to level
   bool mapped = false;                     ///< its cases write files for `--vtk`
   std::vector<std::string> extra_columns;  ///< appended after the contract's columns
-  std::vector<OptionDoc> extra_options;    ///< `--key VALUE` options of this study
+  /// Extra columns that tell rows of one quantity apart in the readable table, as in `wave=0.1`;
+  /// empty: every one that holds a word.
+  std::vector<std::string> variant_columns;
+  std::vector<OptionDoc> extra_options;  ///< `--key VALUE` options of this study
   /// Reads the study's own options, to throw UsageError for a value that does not fit before any
   /// file is touched; empty: any value fits.
   std::function<void(const Options& extra)> check_options;
