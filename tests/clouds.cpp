@@ -222,5 +222,31 @@ TEST(Layouts, ServeEveryDimension) {
   }
 }
 
+TEST(StretchedGrid, CellsAreLongerByTheFactorAndAboutAsMany) {
+  const UnitCube<2> square;
+  const PointCloud<2> cloud = make_cloud<2>(square, "grid[stretch=4]", {41});
+  EXPECT_EQ(cloud.block->shape, (std::array<int, 2>{21, 81}));
+  const UnitCube<3> cube;
+  const PointCloud<3> solid = make_cloud<3>(cube, "grid[stretch=8]", {9});
+  EXPECT_EQ(solid.block->shape, (std::array<int, 3>{3, 17, 17}));
+}
+
+TEST(StretchedGrid, OneIsTheGridItself) {
+  const UnitCube<2> square;
+  EXPECT_EQ(canonical_cloud("grid[stretch=1]"), "grid");
+  EXPECT_EQ(make_cloud<2>(square, "perturbed[stretch=1,seed=3]", {9}).nodes,
+            make_cloud<2>(square, "perturbed[seed=3]", {9}).nodes);
+}
+
+TEST(StretchedGrid, EachAxisKeepsBothEnds) {
+  const UnitCube<2> square;
+  const PointCloud<2> cloud = make_cloud<2>(square, "grid[stretch=100]", {5});
+  EXPECT_EQ(cloud.block->shape, (std::array<int, 2>{2, 41}));
+}
+
+TEST(StretchedGrid, ALineHasNothingToBeStretchedAgainst) {
+  EXPECT_THROW(make_cloud<1>(UnitCube<1>(), "grid[stretch=2]", {9}), SkipCase);
+}
+
 }  // namespace
 }  // namespace strongpoint

@@ -1,6 +1,9 @@
 #include "problems/core/structured.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "methods/core/error.hpp"
 
 namespace strongpoint {
 namespace {
@@ -46,8 +49,25 @@ UnitLattice<Dim> tensor_lattice(const std::array<std::vector<double>, Dim>& axes
 }
 
 template <int Dim>
+std::array<int, Dim> stretched_counts(const Domain<Dim>& domain, int level, double stretch) {
+  std::array<int, Dim> counts = domain.nodes_along(level);
+  if (stretch == 1) return counts;
+  if (Dim == 1) throw SkipCase("stretch: one axis has no other to be stretched against");
+  const double others = std::pow(stretch, 1.0 / Dim);  // their product with the first axis is 1
+  for (int c = 0; c < Dim; ++c) {
+    const double cells = (counts[c] - 1) * (c == 0 ? others / stretch : others);
+    counts[c] = 1 + std::max(1, static_cast<int>(std::lround(cells)));
+  }
+  return counts;
+}
+
+template <int Dim>
 UnitLattice<Dim> graded_lattice(const Domain<Dim>& domain, int level, double ratio) {
-  const std::array<int, Dim> counts = domain.nodes_along(level);
+  return graded_lattice<Dim>(domain.nodes_along(level), ratio);
+}
+
+template <int Dim>
+UnitLattice<Dim> graded_lattice(const std::array<int, Dim>& counts, double ratio) {
   std::array<std::vector<double>, Dim> axes;
   for (int c = 0; c < Dim; ++c) axes[c] = graded_axis(counts[c], ratio);
   return tensor_lattice<Dim>(axes);
@@ -72,6 +92,8 @@ PointCloud<Dim> structured_cloud(const Domain<Dim>& domain, const UnitLattice<Di
 
 #define STRONGPOINT_INSTANTIATE(Dim) /* the same for each dimension */                        \
   template UnitLattice<Dim> tensor_lattice<Dim>(const std::array<std::vector<double>, Dim>&); \
+  template std::array<int, Dim> stretched_counts<Dim>(const Domain<Dim>&, int, double);       \
+  template UnitLattice<Dim> graded_lattice<Dim>(const std::array<int, Dim>&, double);         \
   template UnitLattice<Dim> graded_lattice(const Domain<Dim>&, int, double)
 STRONGPOINT_INSTANTIATE(1);
 STRONGPOINT_INSTANTIATE(2);

@@ -22,6 +22,16 @@ std::vector<double> graded_axis(int n, double ratio);
 template <int Dim>
 UnitLattice<Dim> tensor_lattice(const std::array<std::vector<double>, Dim>& axes);
 
+/// Nodes along each axis of a domain's lattice of a level whose spacings along the first axis are
+/// `stretch` times as long beside those along the others as they would be, with about as many nodes
+/// in all; at least two along each axis. Throws SkipCase in 1D unless `stretch` is 1.
+template <int Dim>
+std::array<int, Dim> stretched_counts(const Domain<Dim>& domain, int level, double stretch);
+
+/// Makes a lattice with spacings as in `graded_axis` along every axis.
+template <int Dim>
+UnitLattice<Dim> graded_lattice(const std::array<int, Dim>& counts, double ratio);
+
 /// Makes the lattice of a level of a domain, with spacings as in `graded_axis` along every axis.
 template <int Dim>
 UnitLattice<Dim> graded_lattice(const Domain<Dim>& domain, int level, double ratio);

@@ -1,6 +1,6 @@
 #include "problems/core/layouts/seed.hpp"
+#include "problems/core/layouts/stretch.hpp"
 #include "problems/core/random.hpp"
-#include "problems/core/structured.hpp"
 
 namespace strongpoint {
 namespace {
@@ -44,6 +44,7 @@ LayoutEntry layout_perturbed() {
        {{"amount", "0.2",
          "largest move in each coordinate, as a fraction of the spacing, 0 to 0.49"},
         seed_option(),
+        stretch_option(),
         {"boundary", "fixed", "boundary nodes: fixed, or slide along their edge or face"}}},
       []<int Dim>(const Domain<Dim>& domain, const Options& options, const LayoutRequest& request) {
         // Below one half neighbours cannot meet.
@@ -51,7 +52,7 @@ LayoutEntry layout_perturbed() {
         const BoundaryNodes boundary = options.choice<BoundaryNodes>(
             "boundary", {{"fixed", BoundaryNodes::fixed}, {"slide", BoundaryNodes::slide}});
         std::mt19937_64 generator(seed_of(options, request));
-        UnitLattice<Dim> lattice = graded_lattice<Dim>(domain, request.level, 1);
+        UnitLattice<Dim> lattice = stretched_lattice<Dim>(domain, options, request);
         perturb(domain, amount, boundary, generator, lattice);
         return structured_cloud(domain, lattice);
       });
