@@ -1,0 +1,165 @@
+#include <cmath>
+#include <random>
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+#include "problems/core/growth.hpp"
+#include "problems/core/integrator.hpp"
+#include "problems/core/random.hpp"
+
+namespace strongpoint {
+namespace {
+
+using Complex = std::complex<double>;
+using Kind = Damping::Kind;
+
+/// Eigenvalues of any size up to e to the `powers`, at angles up to `spread` from the negative
+/// axis.
+Eigen::VectorXcd some_eigenvalues(int count, double spread, double powers = 8) {
+  std::mt19937_64 generator(5);
+  Eigen::VectorXcd values(count);
+  for (Complex& value : values) {
+    const double size = std::exp(powers * uniform01(generator));
+    value = -std::polar(size, spread * (2 * uniform01(generator) - 1));
+  }
+  return values;
+}
+
+/// max Re s by the companion matrix of s^2 + a s - lambda, a being written out again.
+double growth_by_companion(const Eigen::VectorXcd& eigenvalues, Kind kind, double strength,
+                           double q) {
+  double largest = -1e300;
+  for (const Complex& lambda : eigenvalues) {
+    const Complex a =
+        kind == Kind::hyper ? strength * q * q * q * lambda * lambda : -strength * q * lambda;
+    Eigen::Matrix2cd companion;
+    companion << 0, 1, lambda, -a;
+    largest = std::max(largest, companion.eigenvalues().real().maxCoeff());
+  }
+  return largest;
+}
+
+TEST(Growth, ItIsTheLargestRealPartOfTheDampedVibrations) {
+  const Eigen::VectorXcd eigenvalues = some_eigenvalues(200, 0.5);
+  const double q = 0.02;
+  for (const double strength : {0.0, 0.003, 0.2, 5.0}) {
+    for (const Kind kind : {Kind::stiffness, Kind::hyper}) {
+      const double expected = growth_by_companion(eigenvalues, kind, strength, q);
+      // Eigenvalues of companion matrices lose digits where roots are far apart.
+      EXPECT_NEAR(fastest_growth(eigenvalues, {kind, strength}, q).rate, expected, 1e-9);
+    }
+  }
+}
+
+TEST(Growth, WithoutDampingItIsThatOfTheSquareRoots) {
+  const Eigen::VectorXcd eigenvalues = some_eigenvalues(50, 3);
+  const Growth growth = fastest_growth(eigenvalues, {}, 1);
+  EXPECT_NEAR(growth.rate, eigenvalues.cwiseSqrt().real().maxCoeff(), 1e-12);
+  EXPECT_NEAR(std::sqrt(growth.lambda).real(), growth.rate, 1e-12);
+}
+
+TEST(Growth, TheSmallestStrengthIsWhereGrowthEnds) {
+  const double q = 0.02;
+  for (const Kind kind : {Kind::stiffness, Kind::hyper}) {
+    for (const double spread : {0.01, 0.2, 0.7}) {
+      const Eigen::VectorXcd eigenvalues = some_eigenvalues(100, spread);
+      const Stabiliser found = smallest_strength(eigenvalues, kind, q);
+      ASSERT_TRUE(found.strength);
+      const auto growth = [&](double factor) {
+        return growth_by_companion(eigenvalues, kind, factor * *found.strength, q);
+      };
+      EXPECT_GT(growth(1 - 1e-4), 0);
+      EXPECT_LT(growth(1 + 1e-4), 0);
+      for (double factor = 1.5; factor < 1e3; factor *= 1.5) EXPECT_LT(growth(factor), 0);
+    }
+  }
+}
+
+TEST(Growth, ItIsTheVibrationThatWantsMostThatIsNamed) {
+  const double q = 0.02;
+  const Eigen::VectorXcd eigenvalues = some_eigenvalues(100, 0.2);
+  const Stabiliser all = smallest_strength(eigenvalues, Kind::hyper, q);
+  const Stabiliser one =
+      smallest_strength(Eigen::VectorXcd::Constant(1, all.hardest), Kind::hyper, q);
+  EXPECT_DOUBLE_EQ(*one.strength, *all.strength);
+}
+
+TEST(Growth, HyperviscosityDoesNotStopWhatLiesMoreThan45DegreesOffTheAxis) {
+  const Complex inside = -std::polar(100.0, 0.78), outside = -std::polar(100.0, 0.79);
+  Eigen::VectorXcd both(2);
+  both << inside, outside;
+  EXPECT_TRUE(smallest_strength(both.head(1), Kind::hyper, 1).strength);
+  const Stabiliser none = smallest_strength(both, Kind::hyper, 1);
+  EXPECT_FALSE(none.strength);
+  EXPECT_EQ(none.hardest, outside);
+  for (double g = 1e-8; g < 1e8; g *= 2) {
+    EXPECT_GT(growth_by_companion(both, Kind::hyper, g, 1), 0);
+  }
+}
+
+TEST(Growth, StiffnessDampingStopsAllButExponentials) {
+  EXPECT_TRUE(
+      smallest_strength(Eigen::VectorXcd::Constant(1, {-1, 50}), Kind::stiffness, 1).strength);
+  EXPECT_FALSE(
+      smallest_strength(Eigen::VectorXcd::Constant(1, {1, 50}), Kind::stiffness, 1).strength);
+}
+
+TEST(Growth, RealSpectraNeedNoDamping) {
+  Eigen::VectorXcd eigenvalues(3);
+  eigenvalues << -4000, -1, Complex(-2, 1e-12);
+  for (const Kind kind : {Kind::stiffness, Kind::hyper}) {
+    EXPECT_EQ(*smallest_strength(eigenvalues, kind, 0.1).strength, 0);
+  }
+}
+
+TEST(Growth, AStepGrowsAsTheIntegratorItself) {
+  const double q = 0.02;
+  // The spectral radius of a step of the integrator is exact to the root of round-off where two
+  // vibrations meet.
+  constexpr double tolerance = 1e-7;
+  for (const Damping& damping :
+       {Damping{}, Damping{Kind::stiffness, 0.1}, Damping{Kind::hyper, 0.05}}) {
+    for (const Complex& lambda : some_eigenvalues(20, 0.4)) {
+      for (const double dt : {0.001, 0.01, 0.03}) {
+        const double expected = amplification("central", lambda, damping, q, dt);
+        const Eigen::VectorXcd one = Eigen::VectorXcd::Constant(1, lambda);
+        EXPECT_NEAR(growth_per_step(one, damping, q, dt), expected, tolerance * expected);
+      }
+    }
+  }
+}
+
+TEST(Growth, TheStableStepOfARealSpectrumIsThatOfItsRadius) {
+  const double q = 0.05;
+  Eigen::VectorXcd eigenvalues = -Eigen::VectorXcd::LinSpaced(64, 4 / (q * q) / 64, 4 / (q * q));
+  for (const double g : {0.0, 0.02, 0.1, 0.4}) {
+    const double step = stable_step(eigenvalues, {Kind::hyper, g}, q);
+    EXPECT_NEAR(step, stable_step("central", 4 / (q * q), {Kind::hyper, g}, q), 1e-4 * step);
+    // With lambda = -4 / q^2 and x = dt / q the last root passes -1 where x^2 + 8 g x = 1.
+    EXPECT_NEAR(step / q, std::sqrt(16 * g * g + 1) - 4 * g, 1e-6);
+  }
+}
+
+TEST(Growth, StepsUpToTheStableOneDoNotGrow) {
+  const double q = 0.02;
+  const Eigen::VectorXcd eigenvalues = some_eigenvalues(100, 0.1, 2);
+  const Damping damping{Kind::hyper,
+                        1.5 * *smallest_strength(eigenvalues, Kind::hyper, q).strength};
+  const double step = stable_step(eigenvalues, damping, q);
+  ASSERT_GT(step, 0);
+  for (const double share : {0.05, 0.3, 0.7, 0.999}) {
+    EXPECT_LE(growth_per_step(eigenvalues, damping, q, share * step), 1 + 1e-9);
+  }
+  EXPECT_GT(growth_per_step(eigenvalues, damping, q, 1.01 * step), 1);
+}
+
+TEST(Growth, TooWeakADampingHasNoStableStep) {
+  const double q = 0.02;
+  const Eigen::VectorXcd eigenvalues = some_eigenvalues(100, 0.1, 2);
+  const double least = *smallest_strength(eigenvalues, Kind::hyper, q).strength;
+  EXPECT_EQ(stable_step(eigenvalues, {Kind::hyper, 0.5 * least}, q), 0);
+}
+
+}  // namespace
+}  // namespace strongpoint
