@@ -81,10 +81,18 @@ double node_time(const TransientProblem<Dim>& problem, const Waves<Dim>& waves) 
   return 2 / std::sqrt(spectral_radius(*waves.motion));
 }
 
+template <int Dim>
+double node_time(const TransientProblem<Dim>& problem, const Waves<Dim>& waves,
+                 double spectral_radius) {
+  const std::optional<double> h = common_spacing<Dim>(waves.scene->cloud);
+  return h ? *h / problem.wave_speed() : 2 / std::sqrt(spectral_radius);
+}
+
 #define STRONGPOINT_INSTANTIATE(Dim) /* the same for each dimension */                            \
   template Waves<Dim> make_waves(const TransientProblem<Dim>&, const CaseKey&, const RunOptions&, \
                                  StageTimes&);                                                    \
-  template double node_time(const TransientProblem<Dim>&, const Waves<Dim>&)
+  template double node_time(const TransientProblem<Dim>&, const Waves<Dim>&);                     \
+  template double node_time(const TransientProblem<Dim>&, const Waves<Dim>&, double)
 STRONGPOINT_INSTANTIATE(1);
 STRONGPOINT_INSTANTIATE(2);
 STRONGPOINT_INSTANTIATE(3);

@@ -27,4 +27,9 @@ Waves<Dim> make_waves(const TransientProblem<Dim>& problem, const CaseKey& key,
 template <int Dim>
 double node_time(const TransientProblem<Dim>& problem, const Waves<Dim>& waves);
 
+/// The same where the spectral radius is known.
+template <int Dim>
+double node_time(const TransientProblem<Dim>& problem, const Waves<Dim>& waves,
+                 double spectral_radius);
+
 }  // namespace strongpoint
