@@ -39,14 +39,25 @@ Progress::Progress(const std::vector<CaseKey>& pending)
 Progress::~Progress() { clear(); }
 
 void Progress::starts(const CaseKey& key) {
+  case_ = key;
+  show(0, "");
+}
+
+void Progress::steps(std::int64_t done, std::int64_t all) {
+  const double part = static_cast<double>(done) / static_cast<double>(all);
+  show(part * work_of(case_), fmt::format(" step {}/{}", done, all));
+}
+
+void Progress::show(double work_of_case, const std::string& steps) const {
   if (!shown_) return;
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
+  const double done = work_done_ + work_of_case;
   const std::string left =
-      work_done_ > 0 ? clock_text(elapsed.count() * (work_total_ - work_done_) / work_done_)
-                     : std::string("?");
-  std::string line = fmt::format("{}/{} done, {} elapsed, about {} left: {} {} {} {} level {}",
-                                 done_, total_, clock_text(elapsed.count()), left, key.problem,
-                                 key.method, key.stencil, key.cloud, key.level);
+      done > 0 ? clock_text(elapsed.count() * (work_total_ - done) / done) : std::string("?");
+  std::string line =
+      fmt::format("{}/{} done,{} {} elapsed, about {} left: {} {} {} {} level {}", done_, total_,
+                  steps, clock_text(elapsed.count()), left, case_.problem, case_.method,
+                  case_.stencil, case_.cloud, case_.level);
   const std::size_t width = terminal_width();
   if (line.size() >= width) line.resize(width - 1);
   std::fputs(("\r" + line + "\033[K").c_str(), stderr);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ class Progress {
 
   /// Tells that a case starts.
   void starts(const CaseKey& key);
+  /// Tells how far the case is, in steps of about the same length.
+  void steps(std::int64_t done, std::int64_t all);
   /// Tells that the case ended.
   void ends(const CaseKey& key);
   /// Wipes the line, so that something else can be printed.
@@ -29,6 +32,9 @@ class Progress {
   std::size_t total_, done_ = 0;
   double work_total_ = 0, work_done_ = 0;
   std::chrono::steady_clock::time_point begin_;
+  CaseKey case_;
+
+  void show(double work_of_case, const std::string& steps) const;
 };
 
 }  // namespace strongpoint

@@ -100,6 +100,15 @@ std::optional<double> slope(const Line& line) {
   return (n * sxy - sx * sy) / determinant;
 }
 
+/// Whether the numbers of a line are errors that may converge.
+bool has_rates(const Line& line, const Study& study) {
+  const auto has_name = [&](const std::string& name) {
+    return std::any_of(line.rows.begin(), line.rows.end(),
+                       [&](const Row* row) { return row != nullptr && row->quantity == name; });
+  };
+  return study.rated && std::none_of(study.unrated.begin(), study.unrated.end(), has_name);
+}
+
 std::string cell(const Row* row) {
   if (row == nullptr) return "";
   if (row->status != Status::ok) return fmt::format("{:<6}", name_of(row->status));
@@ -213,7 +222,7 @@ std::string block_text(const Block& block, const Study& study) {
     for (const Line& line : lines) {
       std::string row =
           table_line(line.label, span, [&](std::size_t i) { return cell(line.rows[i]); });
-      const std::optional<double> fitted = study.rated ? slope(line) : std::nullopt;
+      const std::optional<double> fitted = has_rates(line, study) ? slope(line) : std::nullopt;
       if (fitted && span.last == block.size())
         row += fmt::format("{:>{}.2f}", *fitted, slope_width);
       text += ended(row);

@@ -244,12 +244,14 @@ std::vector<Row> rows_without_value(const RowFrame& frame, const std::vector<std
   return rows;
 }
 
-void fill_rates(std::vector<std::vector<Row>>& cases, std::size_t index) {
+void fill_rates(std::vector<std::vector<Row>>& cases, std::size_t index,
+                const std::vector<std::string>& unrated) {
   std::vector<Row>& rows = cases[index];
   for (std::size_t r = 0; r < rows.size(); ++r) {
     Row& row = rows[r];
     row.rate.reset();
     if (row.status != Status::ok || !row.value || !row.spacing) continue;
+    if (std::find(unrated.begin(), unrated.end(), row.quantity) != unrated.end()) continue;
     const auto occurrence = static_cast<int>(
         std::count_if(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(r),
                       [&](const Row& other) { return other.quantity == row.quantity; }));

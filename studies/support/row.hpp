@@ -70,7 +70,8 @@ std::vector<Row> rows_without_value(const RowFrame& frame, const std::vector<std
                                     Status status, std::string_view reason);
 
 /// Fills `rate` in the rows of case `index` from the nearest earlier case that differs in level
-/// only and has the number. `cases` are in case order.
-void fill_rates(std::vector<std::vector<Row>>& cases, std::size_t index);
+/// only and has the number, but for quantities that are `unrated`. `cases` are in case order.
+void fill_rates(std::vector<std::vector<Row>>& cases, std::size_t index,
+                const std::vector<std::string>& unrated = {});
 
 }  // namespace strongpoint

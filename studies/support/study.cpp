@@ -1,6 +1,7 @@
 #include "studies/support/study.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <mutex>
 #include <new>
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 #include <omp.h>
 
+#include "studies/support/case_monitor.hpp"
 #include "studies/support/cloud_spec.hpp"
 #include "studies/support/command_line.hpp"
 #include "studies/support/csv.hpp"
@@ -43,6 +45,7 @@ class GridRun {
   Provenance provenance_;
   TableFile table_;
   std::vector<PlannedCase> plan_;
+  CaseMonitor monitor_;
   std::mutex mutex_;  ///< guards what follows against the watcher of signals
   bool started_ = false;
   std::vector<std::vector<Row>> cases_;
@@ -51,7 +54,7 @@ class GridRun {
   void start();
   void keep_rows_left_out(int count) const;
   void run_cases();
-  std::vector<Row> run_case(const PlannedCase& planned) const;
+  std::vector<Row> run_case(const PlannedCase& planned);
   void finish();
   void write_json();
   void interrupted();
@@ -113,14 +116,16 @@ void GridRun::start() {
   started_ = true;
 }
 
-std::vector<Row> GridRun::run_case(const PlannedCase& planned) const {
+std::vector<Row> GridRun::run_case(const PlannedCase& planned) {
   RowFrame frame{study_, planned.key, line_.run.threads, code_version()};
   const auto without_value = [&](Status status, std::string_view reason) {
     return rows_without_value(frame, planned.quantities, status, reason);
   };
   if (planned.status != Status::ok) return without_value(planned.status, planned.reason);
   try {
-    const CaseResult result = study_.run(planned.key, line_.run, line_.extra);
+    RunOptions options = line_.run;
+    options.monitor = &monitor_;
+    const CaseResult result = study_.run(planned.key, options, line_.extra);
     if (is_file_cloud(planned.key.cloud)) {
       frame.key.level = level_of(result.nodes, planned.dimension);
     }
@@ -144,6 +149,11 @@ void GridRun::run_cases() {
     if (cases_[i].empty()) pending.push_back(plan_[i].key);
   }
   Progress progress(pending);
+  monitor_.show = [&](std::int64_t done, std::int64_t steps) { progress.steps(done, steps); };
+  monitor_.note = [&](const std::string& line) {
+    progress.clear();
+    tell(fmt::format("{}: {}", study_.name, one_line(line)));
+  };
   for (std::size_t i = 0; i < plan_.size(); ++i) {
     const bool kept = !cases_[i].empty();
     std::vector<Row> rows;
@@ -154,7 +164,7 @@ void GridRun::run_cases() {
     }
     const std::lock_guard lock(mutex_);
     if (!kept) cases_[i] = std::move(rows);
-    if (study_.rated) fill_rates(cases_, i);
+    if (study_.rated) fill_rates(cases_, i, study_.unrated);
     if (!kept || is_stream(line_.csv)) table_.append(text_of(cases_[i]));
   }
 }
@@ -183,6 +193,8 @@ void GridRun::finish() {
 
 /// Runs in the watcher of signals while a case is still being computed; the process ends after it.
 void GridRun::interrupted() {
+  constexpr std::chrono::seconds patience(10);  // a step takes less
+  monitor_.save.ask(patience);
   const std::lock_guard lock(mutex_);
   try {
     if (started_) finish();
@@ -229,6 +241,7 @@ ExitStatus run(int argc, char** argv, const Study& study) {
     case CommandLine::Action::run:
       break;
   }
+  if (study.prepare) study.prepare(line.extra, line.run);
   omp_set_num_threads(line.run.threads);
   return GridRun(study, line, provenance_of(study, argc, argv, line.run.threads)).execute();
 }

@@ -10,6 +10,8 @@
 
 namespace strongpoint {
 
+struct CaseMonitor;
+
 /// One point of a study's case grid, in canonical specs.
 struct CaseKey {
   std::string problem, method, stencil, cloud, form, solver;
@@ -31,6 +33,7 @@ struct RunOptions {
   int repeat = 1;          ///< timed stages take the minimum over this many runs
   std::uint64_t seed = 1;  ///< for clouds whose spec gives none
   std::optional<VtkOutput> vtk;
+  CaseMonitor* monitor = nullptr;  ///< null: nobody looks on
 };
 
 /// One number of a case. A bad numerical outcome is a value, or no value with a reason; it is not a
@@ -78,6 +81,7 @@ struct Study {
   AxisDefaults defaults;
   bool timed = false;                      ///< adds the timing columns
   bool rated = true;                       ///< fills `rate` from level to level
+  std::vector<std::string> unrated;        ///< quantities without a rate: no errors
   bool mapped = false;                     ///< its cases write files for `--vtk`
   std::vector<std::string> extra_columns;  ///< appended after the contract's columns
   /// Extra columns that tell rows of one quantity apart in the readable table, as in `wave=0.1`;
@@ -87,6 +91,9 @@ struct Study {
   /// Reads the study's own options, to throw UsageError for a value that does not fit before any
   /// file is touched; empty: any value fits.
   std::function<void(const Options& extra)> check_options;
+  /// Prepares what all cases need, as directories, before any of them is planned. Throws UsageError
+  /// that names its option; empty: nothing.
+  std::function<void(const Options& extra, const RunOptions& run)> prepare;
   /// The stencil axis when `--stencil` is not given, in specs made from the study's own options,
   /// which are all refused beside `--stencil`. Without it every method is run with its default.
   std::function<std::string(const Options& extra)> default_stencils;
