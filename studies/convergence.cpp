@@ -17,6 +17,9 @@ int main(int argc, char** argv) {
   study.extra_options = time_option_docs();
   study.extra_columns = time_columns();
   study.check_options = [](const Options& extra) { time_options(extra); };
+  study.prepare = prepare_time;
+  study.keeps = keeps_time;
+  study.unrated = unrated_quantities();
   study.quantities = [](const CaseKey& key, const Options&) {
     return is_kind<TransientProblem>(key.problem) ? transient_quantities(key)
                                                   : steady_quantities(key);

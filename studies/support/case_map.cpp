@@ -34,14 +34,19 @@ void append_figure(const std::string& name, const Discretisation<Dim>& scene,
 }  // namespace
 
 template <int Dim>
-std::vector<NodeArray> case_arrays(const SteadyProblem<Dim>& problem, const Solution<Dim>& solution,
-                                   const Discretisation<Dim>& scene, const Method<Dim>& method) {
+std::vector<NodeArray> field_arrays(const SteadyProblem<Dim>& problem,
+                                    const Solution<Dim>& solution) {
   std::vector<NodeArray> arrays;
   const std::vector<std::string> names = problem.fields();
   for (std::size_t f = 0; f < names.size(); ++f) {
     arrays.push_back({names[f], solution.fields.row(static_cast<Eigen::Index>(f))});
   }
-  for (NodeArray& derived : problem.derived_fields(solution)) arrays.push_back(std::move(derived));
+  return arrays;
+}
+
+template <int Dim>
+std::vector<NodeArray> stencil_arrays(const Discretisation<Dim>& scene, const Method<Dim>& method) {
+  std::vector<NodeArray> arrays;
   const std::vector<int> anchors = anchors_of_nodes(scene);
   append_figure("stencil_size", scene, anchors, stencil_sizes<Dim>(scene, method), arrays);
   if (method.default_stencil() != every_node) {
@@ -57,9 +62,22 @@ std::vector<NodeArray> case_arrays(const SteadyProblem<Dim>& problem, const Solu
   return arrays;
 }
 
-#define STRONGPOINT_INSTANTIATE(Dim) /* the same for each dimension */        \
-  template std::vector<NodeArray> case_arrays<Dim>(const SteadyProblem<Dim>&, \
-                                                   const Solution<Dim>&,      \
+template <int Dim>
+std::vector<NodeArray> case_arrays(const SteadyProblem<Dim>& problem, const Solution<Dim>& solution,
+                                   const Discretisation<Dim>& scene, const Method<Dim>& method) {
+  std::vector<NodeArray> arrays = field_arrays<Dim>(problem, solution);
+  for (NodeArray& derived : problem.derived_fields(solution)) arrays.push_back(std::move(derived));
+  for (NodeArray& array : stencil_arrays<Dim>(scene, method)) arrays.push_back(std::move(array));
+  return arrays;
+}
+
+#define STRONGPOINT_INSTANTIATE(Dim) /* the same for each dimension */            \
+  template std::vector<NodeArray> field_arrays<Dim>(const SteadyProblem<Dim>&,    \
+                                                    const Solution<Dim>&);        \
+  template std::vector<NodeArray> stencil_arrays<Dim>(const Discretisation<Dim>&, \
+                                                      const Method<Dim>&);        \
+  template std::vector<NodeArray> case_arrays<Dim>(const SteadyProblem<Dim>&,     \
+                                                   const Solution<Dim>&,          \
                                                    const Discretisation<Dim>&, const Method<Dim>&)
 STRONGPOINT_INSTANTIATE(1);
 STRONGPOINT_INSTANTIATE(2);

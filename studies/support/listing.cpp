@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 
 #include "methods/core/registry.hpp"
+#include "problems/core/damping.hpp"
 #include "problems/core/form.hpp"
+#include "problems/core/integrator.hpp"
 #include "problems/core/layout.hpp"
 #include "problems/core/problem.hpp"
 #include "problems/core/solvers.hpp"
@@ -41,6 +43,11 @@ std::string section(const char* title, const Entries& entries) {
   return text + '\n';
 }
 
+bool runs_in_time(const Study& study) {
+  return std::any_of(study.extra_options.begin(), study.extra_options.end(),
+                     [](const OptionDoc& option) { return option.key == "time"; });
+}
+
 }  // namespace
 
 std::string listing(const Study& study) {
@@ -53,6 +60,10 @@ std::string listing(const Study& study) {
   text += section("clouds (--cloud)", layouts());
   text += section("forms (--form)", forms());
   text += section("solvers (--solver)", solvers());
+  if (runs_in_time(study)) {
+    text += section("steps in time (--time)", integrators());
+    text += section("damping in time (--damping)", dampings());
+  }
   text += section("weights (weight= of the methods that take one)", weight_functions());
   return text +
          fmt::format("search engines (--neighbours)\n  {}\n", fmt::join(search_engines(), ", "));

@@ -83,11 +83,6 @@ std::uint32_t hash_of(std::string_view text) {
   return hash;
 }
 
-std::string title_of(const CaseKey& key) {
-  return fmt::format("{}, {}, stencil {}, cloud {}, level {}", key.problem, key.method, key.stencil,
-                     key.cloud, key.level);
-}
-
 }  // namespace
 
 NodeArray scalar_array(const std::string& name, std::span<const double> values) {
@@ -105,7 +100,7 @@ NodeArray zone_array(const std::vector<Zone>& zones) {
 
 template <int Dim>
 std::string vtu_text(const Points<Dim>& nodes, const std::vector<NodeArray>& arrays,
-                     const std::string& title) {
+                     const std::string& title, std::optional<double> time) {
   vtkNew<vtkUnstructuredGrid> grid;
   set_nodes<Dim>(*grid.Get(), nodes);
   for (const NodeArray& array : arrays) {
@@ -119,15 +114,26 @@ std::string vtu_text(const Points<Dim>& nodes, const std::vector<NodeArray>& arr
   text->SetName("case");
   text->InsertNextValue(title);
   grid->GetFieldData()->AddArray(text);
+  if (time) {
+    grid->GetFieldData()->AddArray(vtk_array("TimeValue", Eigen::MatrixXd::Constant(1, 1, *time)));
+  }
   return text_of(*grid.Get());
 }
 
-std::string vtu_path(const VtkOutput& output, const CaseKey& key) {
-  const std::string rest = fmt::format("{}|{}", key.form, key.solver);
+std::string title_of(const CaseKey& key) {
+  return fmt::format("{}, {}, stencil {}, cloud {}, level {}", key.problem, key.method, key.stencil,
+                     key.cloud, key.level);
+}
+
+std::string file_stem(const CaseKey& key, const std::string& rest) {
+  const std::string more = fmt::format("{}|{}{}", key.form, key.solver, rest);
   const std::string level = key.level > 0 ? fmt::format("_{}", key.level) : "";
-  return fmt::format("{}/{}_{}_{}_{}_{}{}_{:08x}.vtu", output.directory, output.study,
-                     safe(key.problem), safe(key.method), safe(key.stencil), safe(key.cloud), level,
-                     hash_of(title_of(key) + rest));
+  return fmt::format("{}_{}_{}_{}{}_{:08x}", safe(key.problem), safe(key.method), safe(key.stencil),
+                     safe(key.cloud), level, hash_of(title_of(key) + more));
+}
+
+std::string vtu_path(const VtkOutput& output, const CaseKey& key, const std::string& rest) {
+  return fmt::format("{}/{}_{}.vtu", output.directory, output.study, file_stem(key, rest));
 }
 
 template <int Dim>
@@ -137,11 +143,11 @@ void write_vtu(const VtkOutput& output, const CaseKey& key, const Points<Dim>& n
 }
 
 template std::string vtu_text<1>(const Points<1>&, const std::vector<NodeArray>&,
-                                 const std::string&);
+                                 const std::string&, std::optional<double>);
 template std::string vtu_text<2>(const Points<2>&, const std::vector<NodeArray>&,
-                                 const std::string&);
+                                 const std::string&, std::optional<double>);
 template std::string vtu_text<3>(const Points<3>&, const std::vector<NodeArray>&,
-                                 const std::string&);
+                                 const std::string&, std::optional<double>);
 template void write_vtu<1>(const VtkOutput&, const CaseKey&, const Points<1>&,
                            const std::vector<NodeArray>&);
 template void write_vtu<2>(const VtkOutput&, const CaseKey&, const Points<2>&,
