@@ -70,16 +70,19 @@ def add_colour_bar(axes, drawn, name, values, norm):
                          ticks=whole if few and not isinstance(norm, LogNorm) else None)
 
 
-def draw_coloured(axes, places, values, name):
-    """Nodes (N, 2 or 3) coloured by finite numbers; infinite ones are red crosses, missing ones grey."""
+def draw_coloured(axes, places, values, scale):
+    """Nodes (N, 2 or 3) coloured by finite numbers; infinite ones are red crosses, missing ones grey.
+
+    Returns what a colour bar takes, if there is a finite number.
+    """
     sizes = marker_sizes(axes, places) if places.shape[1] == 2 else np.full(len(values), 12.0)
     finite, infinite = np.isfinite(values), np.isinf(values)
+    drawn = None
     if finite.any():
-        norm, colours = scale_of(name, values[finite])
+        norm, colours = scale
         shown = np.maximum(values, norm.vmin) if isinstance(norm, LogNorm) else values
         drawn = axes.scatter(*places[finite].T, c=shown[finite], norm=norm, cmap=colours, s=sizes[finite],
                              linewidths=0)
-        add_colour_bar(axes, drawn, name, values[finite], norm)
     for chosen, colour, marker, label in ((infinite, "#CC0000", "x", "infinite"),
                                           (np.isnan(values), "#AAAAAA", ".", "none")):
         if chosen.any():
@@ -87,25 +90,25 @@ def draw_coloured(axes, places, values, name):
                          label=f"{label}: {chosen.sum()}")
     if not finite.all():
         axes.legend(loc="upper left", bbox_to_anchor=(0, -0.1), frameon=False, ncols=2)
+    return drawn
 
 
-def draw_filled(axes, places, values, name, before):
+def draw_filled(axes, places, values, name, before, scale):
     """A surface between nodes (N, 2) coloured by their numbers, linear between them.
 
-    Triangles are those of the nodes where they were `before` they were moved.
+    Triangles are those of the nodes where they were `before` they were moved. Returns what a colour bar takes.
     """
     triangles = surfaces.surface(before, values)
     if triangles is None:
         raise MapError(f"--array {name}: the nodes that have a number span no surface; draw it without --filled "
                        "and --plane")
-    finite = values[np.isfinite(values)]
-    norm, colours = scale_of(name, finite)
+    norm, colours = scale
     shown = np.where(np.isfinite(values), np.maximum(values, norm.vmin), norm.vmin)
     triangles.x, triangles.y = places.T
     drawn = axes.tripcolor(triangles, shown, norm=norm, cmap=colours, shading="gouraud", rasterized=True)
     axes.update_datalim(places)
     axes.autoscale_view()
-    add_colour_bar(axes, drawn, name, finite, norm)
+    return drawn
 
 
 def draw_undeformed(axes, places):
@@ -118,13 +121,13 @@ def draw_undeformed(axes, places):
     axes.update_datalim(places)
 
 
-def draw_line(axes, positions, values, name):
+def draw_line(axes, positions, values, name, scale):
     """Numbers over the nodes of a line."""
     order = np.argsort(positions[:, 0])
     positions, values = positions[order], values[order]
     finite = np.isfinite(values)
     axes.plot(positions[finite, 0], values[finite], "o-", color="#0072B2", markersize=3, linewidth=0.8)
-    if finite.any() and isinstance(scale_of(name, values[finite])[0], LogNorm):
+    if scale is not None and isinstance(scale[0], LogNorm):
         axes.set_yscale("log", nonpositive="mask")
     for x in positions[np.isinf(values), 0]:
         axes.axvline(x, color="#CC0000", linewidth=0.8)
@@ -178,22 +181,42 @@ class View:
         wide, high = np.ptp(everything, axis=0)
         return LONG_SIDE + 1, LONG_SIDE * (np.clip(high / wide, 0.3, 2) if wide > 0 else 0.75) + 0.7
 
-    def draw(self, name):
-        """A figure of one array."""
+    def scale(self, name):
+        """Colour scale and map of an array; none without a finite number."""
+        values = self.numbers(name)[0]
+        finite = values[np.isfinite(values)]
+        return scale_of(name, finite) if len(finite) else None
+
+    def draw_on(self, axes, name, scale):
+        """Draws an array; returns what a colour bar takes, if there is any colour."""
         values, label = self.numbers(name)
-        figure = plt.figure(figsize=self.figure_size())
-        axes = figure.add_subplot(projection="3d" if len(self.shown) == 3 else None)
+        drawn = None
         if len(self.shown) == 1:
-            draw_line(axes, self.nodes.positions, values, label)
+            draw_line(axes, self.nodes.positions, values, label, scale)
         else:
             if len(self.shown) == 2:
                 axes.set_aspect("equal")
             if self.warped:
                 draw_undeformed(axes, self.before)
             if self.filled:
-                draw_filled(axes, self.after, values, label, self.before)
+                drawn = draw_filled(axes, self.after, values, label, self.before, scale)
             else:
-                draw_coloured(axes, self.after, values, label)
+                drawn = draw_coloured(axes, self.after, values, scale)
+        return drawn
+
+    def projection(self):
+        return "3d" if len(self.shown) == 3 else None
+
+    def draw(self, name, scale=None):
+        """A figure of one array, on a scale of its own unless one is given."""
+        scale = scale or self.scale(name)
+        figure = plt.figure(figsize=self.figure_size())
+        axes = figure.add_subplot(projection=self.projection())
+        drawn = self.draw_on(axes, name, scale)
+        values, label = self.numbers(name)
+        if drawn is not None:
+            add_colour_bar(axes, drawn, label, values[np.isfinite(values)], scale[0])
+        if len(self.shown) > 1:
             if len(self.shown) == 3:
                 axes.set_aspect("equal")  # in space it fixes the limits to what is drawn already
             for place, axis in zip("xyz", self.shown):
@@ -202,20 +225,27 @@ class View:
         return figure
 
 
-def draw(path, directory, options):
-    """Draws one PNG for each array chosen (every array when none is) and prints their names."""
-    view = View(path, options)
+def save(figure, target):
+    figure.savefig(target, dpi=150, bbox_inches="tight", metadata={"Software": None})
+    plt.close(figure)
+    print(target)
+
+
+def chosen_arrays(view, path, options):
+    """The names of the arrays to draw: every one unless some are asked for."""
     known = view.nodes.arrays
     for name in options.array or []:
         if name not in known:
             raise MapError(f"--array {name}: not in '{path}'; known: {', '.join(known)}")
     if not known:
         raise MapError(f"'{path}' holds nodes but no numbers to draw")
+    return options.array or known
+
+
+def draw(path, directory, options):
+    """Draws one PNG for each array chosen (every array when none is) and prints their names."""
+    view = View(path, options)
+    stem = os.path.splitext(os.path.basename(path))[0]
     with plt.rc_context(RC):
-        for name in options.array or known:
-            figure = view.draw(name)
-            stem = os.path.splitext(os.path.basename(path))[0]
-            target = os.path.join(directory, f"{stem}_{name}{view.suffix}.png")
-            figure.savefig(target, dpi=150, bbox_inches="tight", metadata={"Software": None})
-            plt.close(figure)
-            print(target)
+        for name in chosen_arrays(view, path, options):
+            save(view.draw(name), os.path.join(directory, f"{stem}_{name}{view.suffix}.png"))
