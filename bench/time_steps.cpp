@@ -30,10 +30,10 @@ struct StepCase {
 template <int Dim>
 void time_steps(benchmark::State& state, const StepCase& choice) {
   const AnyProblem made = make_problem(choice.problem).made;
-  const auto& problem = dynamic_cast<const TransientProblem<Dim>&>(
-      *std::get<std::unique_ptr<Problem<Dim>>>(made));
-  const CaseKey key{choice.problem, choice.method, choice.stencil, "grid", "collocation",
-                    "umfpack",      choice.level};
+  const auto& problem =
+      dynamic_cast<const TransientProblem<Dim>&>(*std::get<std::unique_ptr<Problem<Dim>>>(made));
+  const CaseKey key{choice.problem, choice.method, choice.stencil, "grid",
+                    "collocation",  "umfpack",     choice.level};
   StageTimes times;
   const Waves<Dim> waves = make_waves<Dim>(problem, key, {}, times);
   const CondensedMotion& motion = *waves.motion;

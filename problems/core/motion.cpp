@@ -35,7 +35,8 @@ struct Factored {
     matrix.makeCompressed();
     factor.emplace(Eigen::Map<const RowMatrix>(matrix.rows(), matrix.cols(), matrix.nonZeros(),
                                                matrix.outerIndexPtr(), matrix.innerIndexPtr(),
-                                               matrix.valuePtr()));
+                                               matrix.valuePtr()),
+                   SparseFactor::Ordering::least_fill);
     check(*factor, what, remedy);
   }
   void solve(const double* b, double* x) const {

@@ -53,13 +53,16 @@ struct SparseFactor::Objects {
 };
 
 /// The rows are handed over as the columns of the transpose.
-SparseFactor::SparseFactor(const Eigen::Map<const RowMatrix>& matrix)
+SparseFactor::SparseFactor(const Eigen::Map<const RowMatrix>& matrix, Ordering ordering)
     : matrix_(matrix), objects_(std::make_unique<Objects>(matrix.rows())) {
   const SuiteSparse_long n = matrix_.rows();
   const SuiteSparse_long* offsets = as_long(matrix_.outerIndexPtr());
   const SuiteSparse_long* columns = as_long(matrix_.innerIndexPtr());
   const double* values = matrix_.valuePtr();
   const double* control = objects_->control.data();
+  if (ordering == Ordering::least_fill) {
+    objects_->control[UMFPACK_ORDERING] = UMFPACK_ORDERING_BEST;
+  }
   SuiteSparse_long status =
       umfpack_dl_symbolic(n, n, offsets, columns, values, &objects_->symbolic, control, nullptr);
   if (status == UMFPACK_OK) {

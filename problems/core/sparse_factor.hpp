@@ -17,8 +17,13 @@ class SparseFactor {
   /// What can be wrong with a matrix.
   enum class Fault { none, singular, out_of_memory, other };
 
+  /// How unknowns are ordered: as UMFPACK does by default, or in the way of all it knows that fills
+  /// the factors least, for factors that solve many times.
+  enum class Ordering { usual, least_fill };
+
   /// Factorises a matrix in compressed rows, which must live as long as the factors.
-  explicit SparseFactor(const Eigen::Map<const RowMatrix>& matrix);
+  explicit SparseFactor(const Eigen::Map<const RowMatrix>& matrix,
+                        Ordering ordering = Ordering::usual);
   SparseFactor(const SparseFactor&) = delete;
   SparseFactor& operator=(const SparseFactor&) = delete;
   ~SparseFactor();
