@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include "problems/core/integrator.hpp"
+#include "studies/support/waves.hpp"
 #include "tests/contract_support.hpp"
 
 namespace strongpoint {
@@ -105,6 +107,30 @@ TEST_F(Allocation, OfWeightsDoesNotGrowWithTheNumberOfCentresIn3D) {
     const std::int64_t many = allocations_of<3>(spec, 10);  // 1000
     EXPECT_LE(many, few + growth_by_doubling + growth_of_stencils)
         << spec << " takes " << few << " for a quarter";
+  }
+}
+
+TEST_F(Allocation, OfStepsInTimeIsNone) {
+  const AnyProblem made = make_problem("bar_2d").made;
+  const auto& problem =
+      dynamic_cast<const TransientProblem<2>&>(*std::get<std::unique_ptr<Problem<2>>>(made));
+  StageTimes times;
+  const LoadHistory load = [&](double t) { return problem.load(t); };
+  for (const char* method : {"lsfdm", "mls"}) {  // nodal values are unknowns, and are not
+    const Waves<2> waves = make_waves<2>(
+        problem, {"bar_2d", method, "nearest[k=15]", "grid", "collocation", "umfpack", 21}, {},
+        times);
+    for (const IntegratorEntry& entry : integrators()) {
+      const Damping damping = make_damping(entry.is_explicit ? "hyper" : "stiffness");
+      const DampedMotion damped(*waves.motion, damping, 0.05);
+      const auto integrator = make_integrator(entry.info.name, {damped, load, 1e-4});
+      MotionState state;
+      state.displacement = state.velocity = Eigen::VectorXd::Zero(damped.size());
+      integrator->start(state);
+      const std::int64_t before = allocations;
+      for (int step = 0; step < 10; ++step) integrator->advance(state);
+      EXPECT_EQ(allocations, before) << entry.info.name << " " << method;
+    }
   }
 }
 
