@@ -10,7 +10,7 @@ from maps import plt
 from vtu import MapError
 
 PANEL = 3.4  # inches, its width
-LEAST_HEIGHT = 0.9  # inches
+TITLE = 0.35  # inches, a panel's title and the gap above
 
 
 def frames_of(path):
@@ -48,8 +48,8 @@ def set_limits(axes, scale):
 
 def sheet_of(times, views, name):
     """A figure with a panel a frame, all of one scale."""
-    wide, high = views[0].figure_size()
-    height = max(LEAST_HEIGHT, PANEL * (high - 0.7) / (wide - 1)) + 0.3  # without the room for bar and title
+    wide, high = np.ptp(np.vstack([views[0].before, views[0].after]), axis=0) if len(views[0].shown) == 2 else (4, 3)
+    height = PANEL * high / wide + TITLE
     columns = int(np.clip(round(np.sqrt(len(views) * height / PANEL)), 1, len(views)))
     rows = -(-len(views) // columns)
     figure, panels = plt.subplots(rows, columns, figsize=(PANEL * columns + 1, height * rows + 0.6), squeeze=False,
@@ -62,11 +62,13 @@ def sheet_of(times, views, name):
         axes.label_outer()
     for axes in panels.flat[len(views):]:
         axes.set_axis_off()
+    for axes in panels.flat[max(0, len(views) - columns):len(views)]:
+        axes.tick_params(labelbottom=True)  # also where no panel stands below
     if len(views[0].shown) == 1:
         set_limits(panels[0, 0], scale)
     label = views[0].numbers(name)[1]
     if drawn is not None:
-        figure.colorbar(drawn, ax=panels, label=label, shrink=min(1.0, 3 / rows))
+        figure.colorbar(drawn, ax=panels, label=label, shrink=min(1.0, 4 / (height * rows)))
     figure.suptitle(textwrap.fill(views[0].title.rsplit("; t = ", 1)[0], maps.TITLE_WIDTH), fontsize=9)
     return figure
 

@@ -48,14 +48,14 @@ class TransientTest(MapTest):
 
 
 class Killed(TransientTest):
-    NOISY = [*LONG[:-1], "1", "--noise", "4"]
+    NOISY = [*LONG[:-1], "0.6", "--noise", "20"]
 
     def saved(self):
         return sorted(self.states.glob("*.checkpoint")) if self.states.exists() else []
 
-    def kill(self, number, arguments, files=1):
+    def kill(self, number, arguments, files=1, often=ALWAYS):
         """Starts a run, waits until states of so many runs of its case are saved, sends a signal."""
-        process = subprocess.Popen(command("convergence", *arguments, "--checkpoint", self.states, *ALWAYS, "--csv",
+        process = subprocess.Popen(command("convergence", *arguments, "--checkpoint", self.states, *often, "--csv",
                                            self.table),
                                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         self.addCleanup(process.stderr.close)
@@ -85,13 +85,13 @@ class Killed(TransientTest):
         whole = [timeless(row) for row in self.ok(*self.NOISY)]
         self.assertNotEqual(values(whole)["growth_rate"], "")
         self.kill(signal.SIGKILL, self.NOISY)
-        self.kill(signal.SIGKILL, self.NOISY, files=2)
+        self.kill(signal.SIGKILL, self.NOISY, files=2, often=["--checkpoint-every", "0.01"])
         rows = self.go_on(self.NOISY)
         self.assertEqual(len(self.result.stderr.splitlines()), 2, self.result.stderr)
         self.assertEqual([timeless(row) for row in rows], whole)
 
     def test_a_signal_saves_the_state_however_seldom_states_are_saved(self):
-        arguments = [*LONG, "--frames", "4000", "--vtk", self.directory / "maps"]
+        arguments = [*LONG, "--frames", "400", "--vtk", self.directory / "maps"]
         process = subprocess.Popen(command("convergence", *arguments, "--checkpoint", self.states, "--csv", self.table),
                                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         self.addCleanup(process.stderr.close)
@@ -208,7 +208,7 @@ class Frames(TransientTest):
     def test_frames_that_cannot_be_are_refused(self):
         self.assert_refused([*SHORT, "--frames", "3"], "--frames 3", "--vtk")
         self.assert_refused([*SHORT, "--frames", "0", "--vtk", self.directory], "frames=0")
-        reason = self.failure(*SHORT, "--frames", "10000", "--vtk", self.directory)
+        reason = self.failure(*SHORT, "--frames", "2000", "--vtk", self.directory)
         self.assertIn("steps", reason)
 
 

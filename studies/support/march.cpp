@@ -71,7 +71,7 @@ void march(MotionState& state, const March& march, CaseMonitor* monitor) {
   const bool shows = monitor != nullptr && monitor->show;
   bool told = false;
   Clock::time_point saved = Clock::now();
-  Clock::time_point shown = saved - std::chrono::hours(1);
+  Clock::time_point shown = saved;
   while (state.step < march.steps) {
     march.integrator.advance(state);
     if (!march.after(state)) return;
@@ -86,7 +86,7 @@ void march(MotionState& state, const March& march, CaseMonitor* monitor) {
     }
     if (asked) server.done();
     if (shows && seconds_since(shown) >= seconds_shown) {
-      monitor->show(state.step, march.steps);
+      monitor->show(march.earlier + state.step, march.earlier + march.steps + march.later);
       shown = Clock::now();
     }
   }

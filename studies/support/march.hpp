@@ -43,6 +43,8 @@ struct March {
   std::function<bool(MotionState&)> after;
   std::span<std::byte> memory;   ///< what `after` remembers from step to step
   std::optional<Saving> saving;  ///< none: a run that is killed is lost
+  std::int64_t earlier = 0;      ///< steps of other runs of the case before this one
+  std::int64_t later = 0;        ///< and after it
 };
 
 /// Takes a state, started, to the last step or until `after` ends the run. Where a checkpoint was

@@ -56,7 +56,8 @@ void keep_small(MotionState& state, double& square, double& log_scale) {
 }  // namespace
 
 Quantity noise_growth(const DampedMotion& motion, const Steps& steps,
-                      const std::optional<Saving>& saving, CaseMonitor* monitor) {
+                      const std::optional<Saving>& saving, CaseMonitor* monitor,
+                      std::int64_t earlier) {
   Quantity growth{"growth_rate", {}, {}, {}};
   if (steps.count < least_steps) {
     growth.reason = fmt::format("the noise runs for {} steps; take --noise {:.3g} or more",
@@ -81,7 +82,8 @@ Quantity noise_growth(const DampedMotion& motion, const Steps& steps,
     return finite;
   };
   march(state,
-        {*integrator, steps.count, after, std::as_writable_bytes(std::span(&windows, 1)), saving},
+        {*integrator, steps.count, after, std::as_writable_bytes(std::span(&windows, 1)), saving,
+         earlier, 0},
         monitor);
   const double rate =
       (windows.late.log_root_mean() - windows.early.log_root_mean()) / (steps.end / 2);

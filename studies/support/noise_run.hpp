@@ -12,8 +12,9 @@ namespace strongpoint {
 /// 3T/4 to T, it is ln(r2 / r1) / (T/2): by the time that lies between the two windows. States that
 /// grow large are scaled by powers of 2, so that the fastest growth has a figure too. No value,
 /// with a reason, for less than 8 steps and for noise that dies out altogether. Throws CaseError as
-/// `march` does.
+/// `march` does. `earlier` steps of the case came before, for the progress.
 Quantity noise_growth(const DampedMotion& motion, const Steps& steps,
-                      const std::optional<Saving>& saving, CaseMonitor* monitor);
+                      const std::optional<Saving>& saving, CaseMonitor* monitor,
+                      std::int64_t earlier = 0);
 
 }  // namespace strongpoint

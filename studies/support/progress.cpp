@@ -45,7 +45,7 @@ void Progress::starts(const CaseKey& key) {
 
 void Progress::steps(std::int64_t done, std::int64_t all) {
   const double part = static_cast<double>(done) / static_cast<double>(all);
-  show(part * work_of(case_), fmt::format(" step {}/{}", done, all));
+  show(part * work_of(case_), fmt::format(" step {}/{},", done, all));
 }
 
 void Progress::show(double work_of_case, const std::string& steps) const {

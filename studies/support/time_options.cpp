@@ -35,7 +35,7 @@ TimeOptions time_options(const Options& extra) {
   if (extra.has("t-end")) options.t_end = extra.number("t-end", 1e-9, 1e9);
   options.damping = canonical_damping(extra.text("damping"));
   if (extra.has("noise")) options.noise = extra.number("noise", 1e-9, 1e9);
-  options.frames = extra.integer("frames", 1, 100'000);
+  options.frames = extra.integer("frames", 1, 2000);
   if (extra.has("checkpoint")) options.checkpoints = extra.text("checkpoint");
   options.checkpoint_seconds = extra.number("checkpoint-every", 0, 1e6);
   return options;

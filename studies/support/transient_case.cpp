@@ -212,8 +212,13 @@ void TransientRun<Dim>::run_loads(const DampedMotion& motion) {
       if (frames && goes_on) clock_.time(writing, [&] { write_frame(*frames, state); });
       return goes_on;
     };
-    const March run{*integrator, steps_.count, after,
-                    std::as_writable_bytes(std::span(&memory_, 1)), saving_of(loads)};
+    const March run{*integrator,
+                    steps_.count,
+                    after,
+                    std::as_writable_bytes(std::span(&memory_, 1)),
+                    saving_of(loads),
+                    0,
+                    noise_steps_.count};
     march(state_, run, options_.monitor);
     // Noise may be killed too, and then this run must not be repeated.
     if (time_.noise && !diverged_) save_state(state_, run);
@@ -246,7 +251,8 @@ void TransientRun<Dim>::judge_noise(const DampedMotion& motion) {
     add("growth_rate", {}, "not measured; --noise T measures it");
     return;
   }
-  const Quantity growth = noise_growth(motion, noise_steps_, saving_of(noise), options_.monitor);
+  const Quantity growth =
+      noise_growth(motion, noise_steps_, saving_of(noise), options_.monitor, steps_.count);
   add(growth.name, growth.value, growth.reason);
 }
 
