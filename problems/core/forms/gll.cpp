@@ -168,10 +168,11 @@ class GllRows {
   std::vector<std::vector<int>> members_;  ///< (unknowns) the nodes that share each
   std::vector<NodeShare<Dim>> shares_;     ///< (N)
 
-  /// A given value, or the sum over the blocks of -(measure) (div - source) + faces' (flux -
-  /// given).
+  /// A given value, or the sum over the blocks of -(measure) (div - source - inertia u'') + faces'
+  /// (flux - given).
   void write_row(const std::vector<int>& nodes, int field, EquationWriter<Dim>& write) const {
     double right_hand_side = 0;
+    double inertia = 0;
     for (int node : nodes) {
       for (const BoundaryMark<Dim>& mark : cloud_.marks_of(node)) {
         if (problem_.known(field, mark.side) != Known::value) continue;
@@ -189,6 +190,7 @@ class GllRows {
         problem_.flux(field, node_of(cloud_, other).place(), -share.measure * along, write);
       }
       right_hand_side -= share.measure * problem_.source(field, place);
+      inertia -= share.measure * problem_.inertia(field, place);
       write.at(node);
       for (const FaceShare<Dim>& face : share.faces) {
         problem_.flux(field, place, face.along, write);
@@ -196,7 +198,7 @@ class GllRows {
         right_hand_side += face.along.norm() * problem_.given(field, face.side, place.x);
       }
     }
-    write.equals(right_hand_side);
+    write.equals(right_hand_side, inertia);
   }
 };
 

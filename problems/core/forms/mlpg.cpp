@@ -167,15 +167,18 @@ class Mlpg {
   }
 
   /// Writes int sigma.grad v - int_(value given) v sigma.n = int_(flux given) v g - int v f, which
-  /// is div sigma = f times v, integrated by parts.
+  /// is div sigma = f times v, integrated by parts; f has the inertia.
   static void write_weak(const FluxProblem<2>& problem, const TestDomain& domain, int field,
                          int point, EquationWriter<2>& write) {
     const TestFunction& v = domain.test;
     double right_hand_side = 0;
+    double inertia = 0;  // lumped at the node
     for (const AreaPoint& area : domain.rule.area) {
       write.at(point++);
       problem.flux(field, {area.x}, area.weight * v.gradient(area.x), write);
-      right_hand_side -= area.weight * v.value(area.x) * problem.source(field, {area.x});
+      const double share = area.weight * v.value(area.x);
+      right_hand_side -= share * problem.source(field, {area.x});
+      inertia -= share * problem.inertia(field, {area.x});
     }
     for (const EdgePoint& edge : domain.rule.edge) {
       const double share = edge.weight * v.value(edge.x);
@@ -187,7 +190,7 @@ class Mlpg {
       }
       if (has_unknown_flux(problem, domain, edge)) ++point;
     }
-    write.equals(right_hand_side);
+    write.equals(right_hand_side, inertia);
   }
 };
 
