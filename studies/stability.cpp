@@ -7,7 +7,8 @@ namespace strongpoint {
 namespace {
 
 StabilityOptions stability_options(const Options& extra) {
-  return {extra.integer("seeds", 1, 1000), extra.number("t-end", 1e-3, 1e6)};
+  return {extra.integer("seeds", 1, 1000), extra.number("t-end", 1e-3, 1e6),
+          extra.number("tolerance", 0, 1e6)};
 }
 
 }  // namespace
@@ -26,19 +27,21 @@ int main(int argc, char** argv) {
   study.defaults.levels = "31";
   study.defaults.smoke_levels = "11";
   study.rated = false;
-  study.extra_columns = {"seeds", "low", "high", "t_end"};
+  study.extra_columns = {"seeds", "low", "high", "t_end", "tolerance"};
   study.extra_options = {
       {"seeds", "3",
        "clouds of consecutive seeds that a case with random nodes is run on, 1 to 1000: value is "
        "the worst, low and high are the smallest and largest"},
-      {"t-end", "30", "how long noise is watched"}};
+      {"t-end", "30", "how long noise is watched"},
+      {"tolerance", "0.01", "growth rate that counts as none, 1 over time"}};
   study.check_options = [](const Options& extra) { stability_options(extra); };
   study.keeps = [](const CaseKey& key, const std::vector<std::string>& columns,
                    const Options& extra) {
     if (columns[0].empty()) return true;  // a skipped case, whatever the seeds
     const StabilityOptions wanted = stability_options(extra);
     return columns[0] == fmt::format("{}", with_seeds(key.cloud, 1, wanted.seeds).size()) &&
-           columns[3] == fmt::format("{}", wanted.t_end);
+           columns[3] == fmt::format("{}", wanted.t_end) &&
+           columns[4] == fmt::format("{}", wanted.tolerance);
   };
   study.quantities = [](const CaseKey& key, const Options& extra) {
     return stability_quantities(key, stability_options(extra));

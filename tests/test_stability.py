@@ -51,7 +51,7 @@ class Stability(StudyTest):
                       "--cloud", "perturbed[amount=0.45]", "--t-end", "30")
         self.assertEqual(number(rows, "verdict"), 2)
         self.assertEqual((rows["smallest_g"]["value"], rows["smallest_g"]["status"]), ("", "ok"))
-        self.assertIn("no g stops the growth", rows["smallest_g"]["reason"])
+        self.assertIn("no strength stops the growth", rows["smallest_g"]["reason"])
         self.assertIn("diverged at step", rows["steps_survived"]["reason"])
 
     def test_a_steady_problem_is_skipped(self):
@@ -109,14 +109,14 @@ class Known(unittest.TestCase):
 
 class Safe(StudyTest):
     """results/safe on tables made up."""
-    COLUMNS = [*CONTRACT, "seeds", "low", "high", "t_end", "version"]
+    COLUMNS = [*CONTRACT, "seeds", "low", "high", "t_end", "tolerance", "version"]
 
     def table_of(self, *cases):
         lines = [",".join(self.COLUMNS)]
         for method, cloud, values, status in cases:
             for quantity, value in values.items():
                 row = dict.fromkeys(self.COLUMNS, "")
-                row.update(study="stability", problem="bar_2d", method=method, stencil="star", cloud=cloud,
+                row.update(study="stability", problem="bar_2d", level="41", method=method, stencil="star", cloud=cloud,
                            quantity=quantity, value=str(value), status=status)
                 lines.append(",".join(row[column] for column in self.COLUMNS))
         self.table.write_text("\n".join(lines) + "\n", encoding="utf-8")

@@ -57,24 +57,49 @@ Growth fastest_growth(const Eigen::VectorXcd& eigenvalues, const Damping& dampin
   return fastest;
 }
 
-Stabiliser smallest_strength(const Eigen::VectorXcd& eigenvalues, Damping::Kind kind,
-                             double node_time) {
+std::optional<double> smallest_strength(const Eigen::VectorXcd& eigenvalues, Damping::Kind kind,
+                                        double node_time) {
   constexpr double resolved = 1e-12;
   const double least = resolved * largest_modulus(eigenvalues);
   double largest = 0;
-  Complex hardest = 0;
   for (const Complex& lambda : eigenvalues) {
     if (std::abs(lambda) <= least) continue;
     const double y = std::abs(lambda.imag()) <= least ? 0 : -lambda.imag();
-    const double strength = strength_for(-lambda.real(), y, kind, node_time);
-    // Of several that nothing stops, the one that grows fastest.
-    const bool is_faster = std::isinf(strength) && std::isinf(largest) &&
-                           std::sqrt(lambda).real() > std::sqrt(hardest).real();
-    if (strength > largest || is_faster) hardest = lambda;
-    largest = std::max(largest, strength);
+    largest = std::max(largest, strength_for(-lambda.real(), y, kind, node_time));
   }
-  if (std::isinf(largest)) return {std::nullopt, hardest};
-  return {largest, hardest};
+  if (std::isinf(largest)) return std::nullopt;
+  return largest;
+}
+
+std::optional<double> strength_within(const Eigen::VectorXcd& eigenvalues, Damping::Kind kind,
+                                      double node_time, double tolerance, double margin) {
+  if (tolerance == 0) return smallest_strength(eigenvalues, kind, node_time);
+  const auto is_calm = [&](double strength) {
+    return fastest_growth(eigenvalues, {kind, strength}, node_time).rate <= tolerance;
+  };
+  if (is_calm(0)) return 0;
+  constexpr double least = 1e-6;
+  constexpr double most = 10;
+  constexpr double ratio = 1.05;
+  constexpr double precision = 1e-3;
+  double first = 0;  // of the strengths since which all are calm
+  double last_bad = least;
+  for (double strength = least; strength <= margin * most; strength *= ratio) {
+    if (!is_calm(strength)) {
+      first = 0;
+      last_bad = strength;
+    } else if (first == 0) {
+      first = strength;
+      if (first > most) return std::nullopt;
+    }
+    if (first > 0 && strength >= margin * first) break;
+  }
+  if (first == 0) return std::nullopt;
+  while (first > (1 + precision) * last_bad) {
+    const double middle = std::sqrt(first * last_bad);
+    (is_calm(middle) ? first : last_bad) = middle;
+  }
+  return first;
 }
 
 double growth_per_step(const Eigen::VectorXcd& eigenvalues, const Damping& damping,
@@ -88,12 +113,14 @@ double growth_per_step(const Eigen::VectorXcd& eigenvalues, const Damping& dampi
   return largest;
 }
 
-double stable_step(const Eigen::VectorXcd& eigenvalues, const Damping& damping, double node_time) {
+double stable_step(const Eigen::VectorXcd& eigenvalues, const Damping& damping, double node_time,
+                   double tolerance) {
   const double longest = 2 / std::sqrt(largest_modulus(eigenvalues));
   if (damping.kind == Damping::Kind::none || damping.strength == 0) return longest;
-  constexpr double tolerance = 1e-9;  // tells a root on the unit circle from one outside
+  constexpr double round_off = 1e-9;  // tells a root on the unit circle from one outside
   const auto is_stable = [&](double dt) {
-    return growth_per_step(eigenvalues, damping, node_time, dt) <= 1 + tolerance;
+    return growth_per_step(eigenvalues, damping, node_time, dt) <=
+           std::exp(tolerance * dt) + round_off;
   };
   constexpr int samples = 400;  // steps may become stable again where damping oscillates
   double stable = 0;

@@ -101,9 +101,19 @@ Quantity damped_error(const CaseKey& key, const RunOptions& options, const Dampi
   return error;
 }
 
-std::string unstoppable(const char* strength, std::complex<double> s, double node_time) {
-  return fmt::format("no {} stops the growth at {:.3g}/time of the frequency {:.3g}/q", strength,
-                     std::abs(s.real()), std::abs(s) * node_time);
+/// The smallest strength of a kind of damping, and why there is none: the growth that is left with
+/// the strongest one that would be taken.
+Quantity smallest(const std::string& name, const Eigen::VectorXcd& eigenvalues, Damping::Kind kind,
+                  double node_time, double tolerance) {
+  const std::optional<double> strength =
+      strength_within(eigenvalues, kind, node_time, tolerance, margin);
+  if (strength) return quantity(name, strength);
+  const Growth left = fastest_growth(eigenvalues, {kind, largest_g}, node_time);
+  return quantity(name, {},
+                  fmt::format("no strength stops the growth of {:.3g}/time at the frequency "
+                              "{:.3g}/q ({:.3g}/time with {})",
+                              std::sqrt(left.lambda).real(),
+                              std::sqrt(std::abs(left.lambda)) * node_time, left.rate, largest_g));
 }
 
 /// A scene with its spectrum.
@@ -132,7 +142,7 @@ struct Spectrum {
 
 /// The damped half of the quantities.
 template <int Dim>
-std::vector<Quantity> damped_quantities(const Spectrum<Dim>& spectrum, const Stabiliser& hyper,
+std::vector<Quantity> damped_quantities(const Spectrum<Dim>& spectrum, const Quantity& g,
                                         const CaseKey& key, const RunOptions& options,
                                         const StabilityOptions& stability,
                                         const std::string& error) {
@@ -143,15 +153,12 @@ std::vector<Quantity> damped_quantities(const Spectrum<Dim>& spectrum, const Sta
                                  quantity("steps_survived_damped", {}, reason),
                                  quantity(error, {}, reason), quantity("verdict", 2, reason)};
   };
-  if (!hyper.strength) {
-    return refused(unstoppable("g", std::sqrt(hyper.hardest), q));
+  if (!g.value) return refused(g.reason);
+  if (*g.value > largest_g) {
+    return refused(fmt::format("g = {:.3g}, above {}, would be needed", *g.value, largest_g));
   }
-  if (*hyper.strength > largest_g) {
-    return refused(
-        fmt::format("g = {:.3g}, above {}, would be needed", *hyper.strength, largest_g));
-  }
-  const Damping damping{Damping::Kind::hyper, margin * *hyper.strength};
-  const double step = stable_step(spectrum.eigenvalues, damping, q);
+  const Damping damping{Damping::Kind::hyper, margin * *g.value};
+  const double step = stable_step(spectrum.eigenvalues, damping, q, stability.tolerance);
   constexpr double shortest = 0.01;  // of q, where a run becomes too long to be of use
   if (step < shortest * q) {
     return refused(
@@ -173,23 +180,21 @@ CaseResult judge(const TransientProblem<Dim>& problem, const CaseKey& key,
   const Spectrum<Dim> spectrum(problem, key, options, result.times);
   const double q = spectrum.node_time;
   const Growth growth = fastest_growth(spectrum.eigenvalues, {}, q);
-  const Stabiliser hyper = smallest_strength(spectrum.eigenvalues, Damping::Kind::hyper, q);
-  const Stabiliser stiffness = smallest_strength(spectrum.eigenvalues, Damping::Kind::stiffness, q);
-  const auto strength = [&](const char* name, const char* symbol, const Stabiliser& found) {
-    return quantity(name, found.strength,
-                    found.strength ? "" : unstoppable(symbol, std::sqrt(found.hardest), q));
+  const auto smallest_of = [&](const char* name, Damping::Kind kind) {
+    return smallest(name, spectrum.eigenvalues, kind, q, stability.tolerance);
   };
+  const Quantity g = smallest_of("smallest_g", Damping::Kind::hyper);
   const double step = stable_step(spectrum.eigenvalues, {}, q);
   const Run run = step_noise(*spectrum.waves.motion, {}, q, step, stability, options.seed);
   result.quantities = {quantity("growth_rate", growth.rate),
                        quantity("growing_frequency", std::sqrt(std::abs(growth.lambda)) * q),
-                       strength("smallest_g", "g", hyper),
-                       strength("smallest_eta", "eta", stiffness),
+                       g,
+                       smallest_of("smallest_eta", Damping::Kind::stiffness),
                        quantity("node_time", q),
                        quantity("stable_step", step / q),
                        run.as("steps_survived")};
-  for (Quantity& damped : damped_quantities<Dim>(spectrum, hyper, key, options, stability,
-                                                 problem.quantities().front())) {
+  for (Quantity& damped :
+       damped_quantities<Dim>(spectrum, g, key, options, stability, problem.quantities().front())) {
     result.quantities.push_back(std::move(damped));
   }
   result.nodes = spectrum.waves.scene->cloud.size();
@@ -200,7 +205,7 @@ CaseResult judge(const TransientProblem<Dim>& problem, const CaseKey& key,
 
 /// The worst of one quantity over clouds.
 Quantity worst_of(const std::vector<CaseResult>& results, std::size_t index, Worst worst,
-                  std::size_t clouds, double t_end) {
+                  std::size_t clouds, const StabilityOptions& options) {
   Quantity joined = results.front().quantities[index];
   std::vector<double> values;
   std::size_t reasons = 0;
@@ -213,7 +218,8 @@ Quantity worst_of(const std::vector<CaseResult>& results, std::size_t index, Wor
     joined.reason = fmt::format("{} of {} clouds: {}", reasons, clouds, joined.reason);
   }
   joined.value.reset();
-  joined.extra = {fmt::format("{}", clouds), "", "", fmt::format("{}", t_end)};
+  joined.extra = {fmt::format("{}", clouds), "", "", fmt::format("{}", options.t_end),
+                  fmt::format("{}", options.tolerance)};
   if (values.empty()) return joined;
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   joined.extra[1] = fmt::format("{}", *low);
@@ -257,7 +263,7 @@ CaseResult run_stability_case(const CaseKey& key, const RunOptions& options,
         const std::vector<Judged> judged = judged_quantities(problem.quantities().front());
         for (std::size_t i = 0; i < judged.size(); ++i) {
           Quantity& quantity = joined.quantities[i];
-          quantity = worst_of(results, i, judged[i].worst, clouds.size(), stability.t_end);
+          quantity = worst_of(results, i, judged[i].worst, clouds.size(), stability);
           if (failures.empty()) continue;
           // What cannot be computed on one cloud is not to be trusted on others.
           quantity.value = judged[i].name == "verdict" ? std::optional(2.0) : std::nullopt;
