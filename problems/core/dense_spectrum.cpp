@@ -1,4 +1,6 @@
+#include <cmath>
 #include <lapacke.h>
+#include <limits>
 
 #include "methods/core/error.hpp"
 #include "problems/core/spectrum.hpp"
@@ -83,6 +85,31 @@ EigenPairs dense_eigenpairs(const Motion& motion) {
     ++i;
   }
   return pairs;
+}
+
+/// A pair v, conj(v) is that of sqrt(2) Re v, sqrt(2) Im v turned by a unitary matrix: real columns
+/// have the same singular values.
+double eigenvector_condition(const EigenPairs& pairs) {
+  const Eigen::Index n = pairs.values.size();
+  if (pairs.vectors.rows() != n) {
+    throw SkipCase("the condition of the eigenvectors needs all of them");
+  }
+  Eigen::MatrixXd columns = pairs.vectors.real();
+  for (Eigen::Index i = 0; i + 1 < n; ++i) {
+    if (pairs.values[i].imag() == 0) continue;
+    columns.col(i) *= std::sqrt(2.0);
+    columns.col(i + 1) = std::sqrt(2.0) * pairs.vectors.col(i).imag();
+    ++i;
+  }
+  Eigen::VectorXd singular(n);
+  const auto size = static_cast<lapack_int>(n);
+  const OneBlasThread one;
+  if (LAPACKE_dgesdd(LAPACK_COL_MAJOR, 'N', size, size, columns.data(), size, singular.data(),
+                     nullptr, 1, nullptr, 1) != 0) {
+    throw CaseError("the singular values of the eigenvectors did not converge");
+  }
+  return singular[n - 1] > 0 ? singular[0] / singular[n - 1]
+                             : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace strongpoint

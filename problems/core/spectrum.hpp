@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "problems/core/motion.hpp"
 
 namespace strongpoint {
@@ -18,11 +20,35 @@ struct EigenPairs {
 /// As `dense_eigenvalues`, with the eigenvectors: about half as much again.
 EigenPairs dense_eigenpairs(const Motion& motion);
 
+/// Condition of the eigenvectors in the 2-norm, 1 or more, infinite when they are linearly
+/// dependent: from rest, a motion without growth never exceeds its first displacements by a larger
+/// factor, and a change of K by E moves no eigenvalue farther than this factor times |E|.
+/// O(size^3). Throws SkipCase when the pairs are not all pairs of K. Source: Bauer and Fike 1960.
+double eigenvector_condition(const EigenPairs& pairs);
+
+/// Largest |K u - lambda u| / (|lambda| |u|) of the pairs; 0 / 0 counts as 0. Products: two a pair.
+double eigen_residual(const Motion& motion, const EigenPairs& pairs);
+
 /// How fast the fastest growing vibration of u'' = K u grows: max Re sqrt(lambda), 1 over time.
 double growth_rate(const Eigen::VectorXcd& eigenvalues);
 
 /// Largest |eigenvalue| of K to about three digits, from products alone. Throws CaseError when the
 /// iteration does not converge. Source: Arnoldi iteration with restarts, in Spectra.
 double spectral_radius(const Motion& motion);
+
+/// Largest |imaginary part| of the eigenvalues of K to about three digits, from products alone;
+/// none when the iteration does not converge.
+std::optional<double> largest_imaginary(const Motion& motion);
+
+/// The `count` eigenvalues nearest to 0 with their eigenvectors, nearest first, to about ten digits
+/// of the spectral radius's square root or better; one factorisation. A pair of complex ones may be
+/// cut in two at the end. Throws CaseError when the iteration does not converge or K is singular,
+/// UsageError when `count` is not from 1 to the size. Source: Arnoldi iteration on the inverse, in
+/// Spectra.
+EigenPairs lowest_modes(const Motion& motion, int count);
+
+/// The `count` largest eigenvalues in magnitude with their eigenvectors, largest first, to about
+/// ten digits, from products alone. Throws as `lowest_modes`.
+EigenPairs largest_modes(const Motion& motion, int count);
 
 }  // namespace strongpoint
