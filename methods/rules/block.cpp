@@ -6,10 +6,16 @@
 namespace strongpoint {
 namespace {
 
+/// What becomes of a block at an edge of the cloud.
+enum class Ends {
+  shift,  ///< it is moved inwards
+  shrink  ///< it keeps the centre in the middle as long as it has enough nodes
+};
+
 template <int Dim>
 class Block final : public StencilRule<Dim> {
  public:
-  explicit Block(int width) : width_(width) {}
+  Block(int width, Ends ends) : width_(width), ends_(ends) {}
 
   Stencils select(const Sites<Dim>& sites, std::span<const int> anchors, const Method<Dim>& method,
                   const NeighbourSearch<Dim>&) const override {
@@ -21,16 +27,19 @@ class Block final : public StencilRule<Dim> {
     }
     // An odd width keeps the centre in the middle: 3 for order 2, 5 for orders 3 and 4.
     const int order = std::max(1, method.promises().reproduces);
-    const int width = width_ > 0 ? width_ : 2 * ((order + 1) / 2) + 1;
+    const int least = 2 * ((order + 1) / 2) + 1;
+    const int width = width_ > 0 ? width_ : least;
+    const int at_edges = ends_ == Ends::shift ? width : std::min(width, least);
     Stencils result;
-    for (int anchor : anchors) result.push_back(block_at(sites, anchor, width));
+    for (int anchor : anchors) result.push_back(block_at(sites, anchor, width, at_edges));
     return result;
   }
 
  private:
   int width_;  ///< 0: what the method's order needs
+  Ends ends_;
 
-  static std::vector<int> block_at(const Sites<Dim>& sites, int anchor, int width) {
+  static std::vector<int> block_at(const Sites<Dim>& sites, int anchor, int width, int at_edges) {
     const auto& shape = sites.block->shape;
     int node = sites.anchor_node[anchor];
     if (node < 0) throw SkipCase("the rule 'block' needs anchors that are nodes");
@@ -39,8 +48,9 @@ class Block final : public StencilRule<Dim> {
     for (int c = Dim - 1; c >= 0; --c) {
       const int index = node % shape[c];
       node /= shape[c];
-      count[c] = std::min(width, shape[c]);
-      first[c] = std::clamp(index - width / 2, 0, shape[c] - count[c]);
+      const int centred = 2 * std::min(index, shape[c] - 1 - index) + 1;
+      count[c] = std::min({width, std::max(centred, at_edges), shape[c]});
+      first[c] = std::clamp(index - count[c] / 2, 0, shape[c] - count[c]);
     }
     std::vector<int> nodes{0};
     for (int c = 0; c < Dim; ++c) {
@@ -58,17 +68,22 @@ class Block final : public StencilRule<Dim> {
 }  // namespace
 
 /// Index block of a structured cloud around the centre, shifted inwards at the edges: the thesis'
-/// searching algorithm 3. Source: thesis 6.3.3.
+/// searching algorithm 3. With `ends=shrink`, wide blocks give up width there to stay centred, down
+/// to what the method's order needs; one-sided wide blocks make waves grow. Source: thesis 6.3.3;
+/// `shrink` is ours.
 RuleEntry rule_block() {
-  return {{"block",
-           "index block of a structured cloud, shifted inwards at the edges",
-           {{"width", "",
-             "nodes along each axis; the method's order plus one, made odd, if not given"}}},
-          in_every_dimension<StencilRule>(
-              []<int Dim>(Dimension<Dim>, Options& options) -> std::unique_ptr<StencilRule<Dim>> {
-                const int width = options.has("width") ? options.integer("width", 2, 101) : 0;
-                return std::make_unique<Block<Dim>>(width);
-              })};
+  return {
+      {"block",
+       "index block of a structured cloud, shifted inwards at the edges",
+       {{"width", "", "nodes along each axis; the method's order plus one, made odd, if not given"},
+        {"ends", "shift", "shift | shrink: wide blocks move inwards at edges, or lose width"}}},
+      in_every_dimension<StencilRule>(
+          []<int Dim>(Dimension<Dim>, Options& options) -> std::unique_ptr<StencilRule<Dim>> {
+            const int width = options.has("width") ? options.integer("width", 2, 101) : 0;
+            const auto ends =
+                options.choice<Ends>("ends", {{"shift", Ends::shift}, {"shrink", Ends::shrink}});
+            return std::make_unique<Block<Dim>>(width, ends);
+          })};
 }
 
 }  // namespace strongpoint

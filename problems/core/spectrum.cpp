@@ -117,18 +117,6 @@ double spectral_radius(const Motion& motion) {
   return std::abs(solver.eigenvalues()[0]);
 }
 
-std::optional<double> largest_imaginary(const Motion& motion) {
-  constexpr int basis = 40;
-  constexpr int restarts = 100;
-  constexpr double tolerance = 1e-3;
-  if (motion.size() <= basis) return dense_eigenvalues(motion).imag().cwiseAbs().maxCoeff();
-  OperatorProduct product(motion);
-  Spectra::GenEigsSolver<OperatorProduct> solver(product, 1, basis);
-  solver.init();
-  if (solver.compute(Spectra::SortRule::LargestImag, restarts, tolerance) < 1) return std::nullopt;
-  return std::abs(solver.eigenvalues()[0].imag());
-}
-
 double eigen_residual(const Motion& motion, const EigenPairs& pairs) {
   Eigen::VectorXd part(motion.size());
   Eigen::VectorXd product(motion.size());

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "problems/core/motion.hpp"
 
 namespace strongpoint {
@@ -35,10 +33,6 @@ double growth_rate(const Eigen::VectorXcd& eigenvalues);
 /// Largest |eigenvalue| of K to about three digits, from products alone. Throws CaseError when the
 /// iteration does not converge. Source: Arnoldi iteration with restarts, in Spectra.
 double spectral_radius(const Motion& motion);
-
-/// Largest |imaginary part| of the eigenvalues of K to about three digits, from products alone;
-/// none when the iteration does not converge.
-std::optional<double> largest_imaginary(const Motion& motion);
 
 /// The `count` eigenvalues nearest to 0 with their eigenvectors, nearest first, to about ten digits
 /// of the spectral radius's square root or better; one factorisation. A pair of complex ones may be
