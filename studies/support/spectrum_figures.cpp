@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "methods/core/error.hpp"
-#include "problems/core/growth.hpp"
+#include "problems/core/sparse_growth.hpp"
 
 namespace strongpoint {
 namespace {
@@ -51,7 +51,7 @@ SpectrumFigures sparse_figures(const Motion& motion, int count) {
   figures.non_normality.reason =
       "needs all eigenvectors; ask for --engine dense, or a coarser level";
   constexpr std::int64_t budget = 100000;
-  const Growth growth = fastest_growth(motion, figures.radius, budget);
+  const FoundGrowth growth = find_growth(motion, figures.radius, budget);
   figures.largest_imaginary.reason = "needs all eigenvalues; ask for --engine dense";
   double real = figures.modes.values.real().maxCoeff();
   if (growth.rate > 0) {
