@@ -6,9 +6,10 @@ Usage: test_dispersion.py [BUILD_DIRECTORY]; without it the variable STRONGPOINT
 import csv
 import io
 import math
+import subprocess
 import unittest
 
-from study_programs import CONTRACT, StudyTest, rows_of, run
+from study_programs import CONTRACT, DEADLINE, ROOT, StudyTest, rows_of, run
 
 COLUMNS = ["wave", "direction", "branch", "low", "high", "time", "directions", "sampled"]
 WAVES = ["0.1", "0.3", "0.5", "0.7", "1"]
@@ -111,6 +112,35 @@ class Dispersion(StudyTest):
         run("dispersion", *method, "--waves", "0.1,0.3", "--resume", self.table)
         waves = [r["wave"] for r in rows_of(self.table.read_text()) if r["quantity"] == "phase_velocity"]
         self.assertEqual(waves, ["0.1", "0.3"])
+
+    def script(self, name, *arguments):
+        return subprocess.run([ROOT / "results" / name, *map(str, arguments)], capture_output=True, text=True,
+                              check=False, timeout=DEADLINE)
+
+    def test_tables_are_drawn_as_relations_and_by_direction(self):
+        run("dispersion", "--method", "mfpm,gfdm", "--csv", self.table)
+        result = self.script("plot", self.table, "-o", self.directory)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertTrue((self.directory / "dispersion_bar-1d_grid_relation.png").exists())
+        waves = ",".join(f"{0.1 * i:.1f}" for i in range(1, 9))
+        run("dispersion", *PLANE, "--waves", waves, "--directions", "8", "--csv", self.table)
+        result = self.script("plot", self.table, "-o", self.directory)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        for kind in ("directions", "points"):
+            self.assertTrue((self.directory / f"dispersion_bar-2d_grid_{kind}.png").exists())
+        run("dispersion", *PLANE, "--waves", "0.1", "--directions", "2", "--csv", self.table)
+        result = self.script("plot", self.table, "-o", self.directory)
+        self.assertEqual((result.returncode, len(result.stderr.splitlines())), (2, 1))
+
+    def test_points_puts_a_line_per_method_and_stencil(self):
+        run("dispersion", "--method", "mfpm,delta", "--stencil", "nearest[k=3]", "--csv", self.table)
+        result = self.script("points", self.table)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        head, _, mfpm, delta = result.stdout.splitlines()
+        self.assertEqual(head, "| method | grid: P | grid: growth | grid: step |")
+        self.assertEqual(mfpm, "| `mfpm` | 12.8 | 0 | 1 |")
+        self.assertIn("none", delta)
+        self.assertEqual(self.script("points", self.directory / "absent.csv").returncode, 2)
 
     def test_what_does_not_fit_is_refused_in_one_line(self):
         for option, value, *words in (("--waves", "0.1,x", "'x'"), ("--waves", "0", "above 0"),

@@ -17,7 +17,7 @@ constexpr int most_fields = 3;
 
 /// Takes round-off off an eigenvalue: a real symbol has real frequencies, a zero one none.
 Complex cleaned(Complex eigenvalue, double scale) {
-  constexpr double round_off = 1e-12;  // of weights from local systems with conditions of 1e3
+  constexpr double round_off = 1e-11;  // of weights from local systems with conditions of 1e4
   const auto clean = [&](double part) { return std::abs(part) < round_off * scale ? 0 : part; };
   return {clean(eigenvalue.real()), clean(eigenvalue.imag())};
 }
