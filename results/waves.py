@@ -33,13 +33,15 @@ def curves(rows, quantity, against):
 
 
 def style_of(key, taken, tools):
-    """Colour and line of a case: variants of a method get other colours, equal colours other lines."""
+    """Colour and line of a case: variants of a method get other colours, and lines that show both where
+    curves cover each other; so do methods that share a colour."""
+    name = tools.base_name(key[0])
     colour, _ = tools.method_style(key[0])
-    if any(name == tools.base_name(key[0]) for name, _ in taken):
+    if any(other == name for other, _ in taken):
         colour = tools.LINE_COLOURS[len(taken) % len(tools.LINE_COLOURS)]
-    same = sum(other == colour for _, other in taken)
-    taken.append((tools.base_name(key[0]), colour))
-    return {"color": colour, "linestyle": tools.LINES[same % len(tools.LINES)]}
+    rivals = sum(name == other or colour == shade for other, shade in taken)
+    taken.append((name, colour))
+    return {"color": colour, "linestyle": tools.LINES[rivals % len(tools.LINES)]}
 
 
 def draw_relation(rows, directory, tools):

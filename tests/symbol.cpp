@@ -179,6 +179,14 @@ TEST(Symbol, LongWavesAreRightAtTheOrderOfTheStencil) {
       1, 0.15);
 }
 
+TEST(Symbol, CellBalancesMoveLongWavesAsPointsDo) {
+  CaseKey key = key_of("bar_2d[nu=0.3]", "lsfdm", "nearest[k=15]", "grid", 41);
+  key.form = "flux";  // inertia is that of cells
+  const Point<2> direction(0.8, 0.6);
+  EXPECT_LT(error_at<2>(symbols_of<2>(key), direction, 0.02), 1e-2);
+  EXPECT_GT(order_of_waves<2>(key, direction), 0.9);
+}
+
 TEST(Symbol, SymmetricStencilsHaveRealSymbolsAndOthersDoNot) {
   for (const char* cloud : {"grid", "perturbed[seed=1]"}) {
     const WaveSymbols<2> bar = symbols_of<2>(key_of("bar_2d", "lsfdm", "nearest[k=21]", cloud, 41));

@@ -19,7 +19,8 @@ std::vector<int> middle_nodes(const PointCloud<Dim>& cloud, const Domain<Dim>& d
       inner.emplace_back((cloud.nodes.col(node) - middle).squaredNorm(), node);
     }
   }
-  if (inner.empty()) throw CaseError("every node lies on the boundary; raise the level");
+  if (inner.empty())
+    throw CaseError("every node lies on the boundary or on an interface; raise the level");
   const auto taken = std::min(inner.size(), static_cast<std::size_t>(count));
   std::partial_sort(inner.begin(), inner.begin() + static_cast<std::ptrdiff_t>(taken), inner.end());
   std::vector<int> nodes;
