@@ -12,6 +12,20 @@ BlockMatrix<Size> blocks_of(const LinearSystem& system) {
   return block_matrix<Size>(system, order);
 }
 
+/// Adds one row of blocks, times a factor and without zeros, to the last row of a matrix.
+template <int Size>
+void append_row(const BlockMatrix<Size>& blocks, Eigen::Index row, double factor,
+                RowMatrix& matrix) {
+  for (std::int64_t b = blocks.offsets[row / Size]; b < blocks.offsets[row / Size + 1]; ++b) {
+    for (int column = 0; column < Size; ++column) {
+      const double value = blocks.values[(b * Size + column) * Size + row % Size];
+      if (value == 0) continue;
+      matrix.insertBack(row, static_cast<Eigen::Index>(blocks.columns[b]) * Size + column) =
+          factor * value;
+    }
+  }
+}
+
 }  // namespace
 
 MovingRows::MovingRows(const RowMatrix& rows, int fields)
@@ -55,28 +69,23 @@ void MovingRows::multiply(const Eigen::VectorXd& u, const Eigen::VectorXd& rest,
 }
 
 RowMatrix MovingRows::scaled(double factor) const {
-  std::vector<Eigen::Triplet<double, std::int64_t>> entries;
+  RowMatrix matrix(moving_, moving_ + rest_);
   std::visit(
-      [&]<int Size>(const BlockMatrix<Size>& blocks) {
-        for (int row = 0; row < blocks.rows(); ++row) {
-          for (std::int64_t b = blocks.offsets[row]; b < blocks.offsets[row + 1]; ++b) {
-            for (int e = 0; e < blocks.entries; ++e) {
-              const double value = blocks.values[b * blocks.entries + e];
-              if (value == 0) continue;
-              entries.emplace_back(row * Size + e % Size, blocks.columns[b] * Size + e / Size,
-                                   factor * value);
-            }
-          }
-        }
+      [&](const auto& blocks) {
+        matrix.reserve(static_cast<Eigen::Index>(blocks.values.size() + outer_values_.size()));
       },
       inner_);
-  for (std::size_t i = 0; i < outer_rows_.size(); ++i) {
-    for (int e = outer_offsets_[i]; e < outer_offsets_[i + 1]; ++e) {
-      entries.emplace_back(outer_rows_[i], moving_ + outer_columns_[e], factor * outer_values_[e]);
+  std::size_t outer = 0;
+  for (Eigen::Index row = 0; row < moving_; ++row) {
+    matrix.startVec(row);
+    std::visit([&](const auto& blocks) { append_row(blocks, row, factor, matrix); }, inner_);
+    if (outer == outer_rows_.size() || outer_rows_[outer] != row) continue;
+    for (int e = outer_offsets_[outer]; e < outer_offsets_[outer + 1]; ++e) {
+      matrix.insertBack(row, moving_ + outer_columns_[e]) = factor * outer_values_[e];
     }
+    ++outer;
   }
-  RowMatrix matrix(moving_, moving_ + rest_);
-  matrix.setFromTriplets(entries.begin(), entries.end());
+  matrix.finalize();
   return matrix;
 }
 
