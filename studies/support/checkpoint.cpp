@@ -79,7 +79,7 @@ std::string checksum_of(std::string_view version, std::string_view run, std::str
 
 }  // namespace
 
-Checkpoint::Checkpoint(std::string path, std::string run, std::string version)
+Checkpoint::Checkpoint(std::string path, const std::string& run, std::string version)
     : path_(std::move(path)), run_(one_line(run)), version_(std::move(version)) {}
 
 Checkpoint::Found Checkpoint::load(MotionState& state, std::span<std::byte> memory) const {

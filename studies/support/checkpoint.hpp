@@ -15,7 +15,7 @@ class Checkpoint {
  public:
   /// Takes the file, and a line of text that tells the run from any other. `version` is that of the
   /// code.
-  Checkpoint(std::string path, std::string run, std::string version);
+  Checkpoint(std::string path, const std::string& run, std::string version);
 
   /// What a file holds.
   enum class Found { nothing, other_version, state };
