@@ -137,6 +137,18 @@ class Pictures(MapTest):
                     self.assertLessEqual(low, places[:, axis].min())
                     self.assertGreaterEqual(high, places[:, axis].max())
 
+    def test_sheets_of_what_is_no_collection_are_refused_in_one_line(self):
+        broken, empty, lost = (self.directory / name for name in ("broken.pvd", "empty.pvd", "lost.pvd"))
+        broken.write_text("<VTKFile", encoding="utf-8")
+        empty.write_text("<VTKFile/>", encoding="utf-8")
+        lost.write_text('<VTKFile><DataSet timestep="1" file="none.vtu"/></VTKFile>', encoding="utf-8")
+        for file, word in ((broken, "not a .pvd"), (empty, "no frames"), (lost, "none.vtu"),
+                           (self.directory / "none.pvd", "No such file"), ("map.vtu", "--sheet"), ("a.csv", "--sheet")):
+            drawn = plot(file, "--sheet")
+            self.assertEqual(drawn.returncode, 2, drawn.stderr)
+            self.assertEqual(len(drawn.stderr.splitlines()), 1, drawn.stderr)
+            self.assertIn(word, drawn.stderr)
+
     def test_lines_and_tables_are_refused(self):
         files = self.maps("convergence", "--problem", "bvp_1d", "--method", "mfpm", "--levels", "7")
         (path,) = files
