@@ -121,11 +121,14 @@ def draw_undeformed(axes, places):
     axes.update_datalim(places)
 
 
-def draw_line(axes, positions, values, name, scale):
-    """Numbers over the nodes of a line."""
+def draw_line(axes, positions, values, name, scale, exact=None):
+    """Numbers over the nodes of a line, and below them those that are exact."""
     order = np.argsort(positions[:, 0])
     positions, values = positions[order], values[order]
     finite = np.isfinite(values)
+    if exact is not None:
+        axes.plot(positions[:, 0], exact[order], "-", color="#D55E00", linewidth=2.5, alpha=0.5, label="exact")
+        axes.legend()
     axes.plot(positions[finite, 0], values[finite], "o-", color="#0072B2", markersize=3, linewidth=0.8)
     if scale is not None and isinstance(scale[0], LogNorm):
         axes.set_yscale("log", nonpositive="mask")
@@ -192,7 +195,7 @@ class View:
         values, label = self.numbers(name)
         drawn = None
         if len(self.shown) == 1:
-            draw_line(axes, self.nodes.positions, values, label, scale)
+            draw_line(axes, self.nodes.positions, values, label, scale, self.nodes.arrays.get(f"{name}_exact"))
         else:
             if len(self.shown) == 2:
                 axes.set_aspect("equal")
