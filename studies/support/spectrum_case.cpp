@@ -60,6 +60,12 @@ Eigen::MatrixXcd fitted(const Eigen::MatrixXcd& mode, const Eigen::MatrixXd& to)
   return along / mode.squaredNorm() * mode;
 }
 
+/// A mode whose largest number is 1, for looking at.
+Eigen::MatrixXd scaled(const Eigen::MatrixXd& mode) {
+  const double largest = mode.cwiseAbs().maxCoeff();
+  return largest > 0 ? Eigen::MatrixXd(mode / largest) : mode;
+}
+
 /// Everything of one case.
 template <int Dim>
 struct Run {
@@ -101,7 +107,8 @@ Figure step_growth_of(const Run<Dim>& run) {
   std::vector<Complex> values{-run.figures.radius};
   const EigenPairs& pairs = run.figures.complete ? run.figures.modes : run.figures.fastest;
   for (const Complex& lambda : pairs.values) {
-    if (lambda.imag() >= 0) values.push_back(lambda);  // its conjugate grows the same
+    // A conjugate grows the same.
+    if (lambda.imag() >= 0 || !run.figures.complete) values.push_back(lambda);
   }
   const Damping damping = make_damping(run.options.damping);
   double largest = 0;
@@ -158,7 +165,7 @@ void add_modes(Run<Dim>& run, const EigenProblem<Dim>& problem) {
       numbers = {{{omega[i].real() / problem.frequency(n), {}},
                   {std::abs(omega[i].imag()), {}},
                   {(mode - exact.cast<Complex>()).norm() / exact.norm(), {}}}};
-      run.arrays.push_back({fmt::format("mode_{}", n), mode.real()});
+      run.arrays.push_back({fmt::format("mode_{}", n), scaled(mode.real())});
       run.arrays.push_back({fmt::format("mode_{}_exact", n), exact});
     }
     for (std::size_t q = 0; q < numbers.size(); ++q) {
@@ -173,10 +180,7 @@ void add_modes(Run<Dim>& run, const EigenProblem<Dim>& problem) {
 template <int Dim>
 void add_shapes(Run<Dim>& run) {
   const auto add = [&](const std::string& name, const Eigen::VectorXcd& u) {
-    Eigen::MatrixXd mode = nodal_mode<Dim>(run.waves, u).real();
-    const double largest = mode.cwiseAbs().maxCoeff();
-    if (largest > 0) mode /= largest;
-    run.arrays.push_back({name, mode});
+    run.arrays.push_back({name, scaled(nodal_mode<Dim>(run.waves, u).real())});
   };
   const EigenPairs& modes = run.figures.modes;
   constexpr Eigen::Index shown = 4;
