@@ -137,11 +137,23 @@ class Safe(StudyTest):
                       ("other", "grid", {"all": ""}, "skipped"))
         done = self.safe()
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("| `bar_2d grid` | 2 of 3 | smallest error | `exact star` | 0.2 | 0.02 | 0.50 |", done.stdout)
+        self.assertIn("| `bar_2d grid` | 2 of 3 | recommended, smallest error | `exact star` | 0.2 | 0.02 | 0.50 |", done.stdout)
         self.assertIn("| `bar_2d grid` | 2 of 3 | smallest g | `mild star` | 0.02 | 0.05 | 0.50 |", done.stdout)
+        self.assertNotIn("`best star`", done.stdout)
         self.assertEqual((self.directory / "out.md").read_text(encoding="utf-8"), done.stdout)
         for suffix in ("png", "svg"):
             self.assertGreater((self.directory / f"out_map.{suffix}").stat().st_size, 0)
+
+    def test_what_wants_short_steps_is_not_recommended(self):
+        slow = self.case(1, 0.3, 0.02, 1) | {"stable_step_damped": 0.3}
+        self.table_of(("slow", "grid", slow, "ok"), ("quick", "grid", self.case(1, 0.01, 0.05, 1), "ok"))
+        done = self.safe()
+        self.assertIn("| recommended, smallest g | `quick star` |", done.stdout)
+        self.assertIn("| smallest error | `slow star` |", done.stdout)
+
+    def test_a_setting_has_to_be_safe_at_every_level(self):
+        self.table_of(("one", "grid", self.case(1, 0.1, 0.02, 1), "ok"), ("one", "grid", self.case(1, "", "", 2), "ok"))
+        self.assertIn("| 0 of 1 | - | none |", self.safe().stdout)
 
     def test_a_kind_without_a_safe_setting_says_so(self):
         self.table_of(("one", "grid", self.case(2, "", "", 2), "ok"))

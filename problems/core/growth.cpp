@@ -54,6 +54,7 @@ Growth fastest_growth(const Eigen::VectorXcd& eigenvalues, const Damping& dampin
     const double rate = std::max(first.real(), second.real());
     if (rate > fastest.rate) fastest = {rate, lambda};
   }
+  fastest.rate += 0.0;  // no -0 in tables
   return fastest;
 }
 
