@@ -116,6 +116,17 @@ TEST(ContractRules, BlockShiftsInwardsAtEdgesAndRefusesUnstructuredClouds) {
   EXPECT_THROW(select<2>("block", scene), SkipCase);
 }
 
+TEST(ContractRules, WideBlocksShrinkAtEdgesToStayCentredWhenAsked) {
+  TestScene<1> scene = make_scene<1>("mfpm", "grid", 11, 1);
+  const Stencils stencils = select<1>("block[width=7,ends=shrink]", scene);
+  const auto nodes = [&](int a) { return std::set<int>(stencils[a].begin(), stencils[a].end()); };
+  EXPECT_EQ(nodes(0), (std::set<int>{0, 1, 2}));  // what order 2 needs
+  EXPECT_EQ(nodes(1), (std::set<int>{0, 1, 2}));
+  EXPECT_EQ(nodes(2), (std::set<int>{0, 1, 2, 3, 4}));
+  EXPECT_EQ(nodes(5), (std::set<int>{2, 3, 4, 5, 6, 7, 8}));
+  EXPECT_EQ(nodes(10), (std::set<int>{8, 9, 10}));
+}
+
 TEST(ContractRules, GrowUntilStopsAtTheConditionOrTheCap) {
   TestScene<2> scene = make_scene<2>("mfpm", "perturbed[amount=0.4]", 15, 1);
   const Stencils base = select<2>("nearest", scene);

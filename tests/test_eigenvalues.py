@@ -62,6 +62,12 @@ class Eigenvalues(StudyTest):
         self.assertNotIn("non_normality", few)
         self.assertGreater(dense["non_normality"], 1)
 
+    def test_threads_change_no_bit(self):
+        for engine in ("dense", "spectra"):
+            tables = [self.values("--problem", "bar_2d", "--levels", 31, "--method", "mfpm", "--stencil",
+                                  "nearest[k=9]", "--engine", engine, "--threads", n) for n in (1, 2)]
+            self.assertEqual(*tables)
+
     def test_damping_keeps_steps_from_growing_where_the_operator_grows(self):
         case = ["--problem", "bar_2d", "--levels", 31, "--method", "lsfdm", "--stencil", "nearest[k=15]",
                 "--time", "central[courant=0.5]"]
