@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
   study.defaults.method = "mfpm";
   study.defaults.levels = "101";
   study.timed = true;
+  study.rated = false;
   study.mapped = true;
   study.extra_options = spectrum_option_docs();
   study.extra_columns = spectrum_columns();

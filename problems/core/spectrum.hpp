@@ -34,11 +34,10 @@ double growth_rate(const Eigen::VectorXcd& eigenvalues);
 /// iteration does not converge. Source: Arnoldi iteration with restarts, in Spectra.
 double spectral_radius(const Motion& motion);
 
-/// The `count` eigenvalues nearest to 0 with their eigenvectors, nearest first, to about ten digits
-/// of the spectral radius's square root or better; one factorisation. A pair of complex ones may be
-/// cut in two at the end. Throws CaseError when the iteration does not converge or K is singular,
-/// UsageError when `count` is not from 1 to the size. Source: Arnoldi iteration on the inverse, in
-/// Spectra.
+/// The `count` eigenvalues nearest to 0 with their eigenvectors, nearest first, to about ten
+/// digits; one factorisation. A pair of complex ones may be cut in two at the end. Throws CaseError
+/// when the iteration does not converge or K is singular, UsageError when `count` is not from 1 to
+/// the size. Source: Arnoldi iteration on the inverse, in Spectra.
 EigenPairs lowest_modes(const Motion& motion, int count);
 
 /// The `count` largest eigenvalues in magnitude with their eigenvectors, largest first, to about
