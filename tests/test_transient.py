@@ -269,10 +269,9 @@ class BadInput(TransientTest):
         self.assertIn("too many", self.failure(*BAR, "--levels", "11", "--time", "central[dt=1e-12]", "--t-end", "9"))
 
     def test_discretisations_without_a_motion_are_skipped_with_a_reason(self):
-        for problem, form, word in (("bar_1d", "least_squares", "least squares"), ("bar_2d", "mlpg", "at rest")):
-            rows = self.ok("--problem", problem, "--method", "mls[h=1.3]", "--form", form, "--levels", "11")
-            self.assertEqual({row["status"] for row in rows}, {"skipped"})
-            self.assertIn(word, rows[0]["reason"])
+        rows = self.ok("--problem", "bar_1d", "--method", "mls[h=1.3]", "--form", "least_squares", "--levels", "11")
+        self.assertEqual({row["status"] for row in rows}, {"skipped"})
+        self.assertIn("least squares", rows[0]["reason"])
 
     def test_blocks_that_are_joined_move_as_one(self):
         rows = self.ok("--problem", "bar_2d", "--method", "fdm[order=4]", "--cloud", "blocks[split=2]", "--levels",

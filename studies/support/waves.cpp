@@ -1,6 +1,5 @@
 #include "studies/support/waves.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -29,17 +28,6 @@ std::optional<LinearSystem> value_rows(const Discretisation<Dim>& scene, int fie
     }
   }
   return assemble(list, scene.weights, scene.unknowns, fields);
-}
-
-/// Refuses equations without inertia, unless the cloud is to blame.
-template <int Dim>
-void check_inertia(const EquationList& equations, const PointCloud<Dim>& cloud) {
-  const auto is_zero = [](double inertia) { return inertia == 0; };
-  if (!std::all_of(equations.inertia.begin(), equations.inertia.end(), is_zero)) return;
-  for (int i = 0; i < cloud.size(); ++i) {
-    if (cloud.is_boundary(i)) continue;
-    throw SkipCase("the form writes equations at rest only; for waves take collocation or flux");
-  }
 }
 
 /// The spacing of a structured cloud that is the same along all axes.
@@ -75,7 +63,6 @@ Waves<Dim> make_waves(const TransientProblem<Dim>& problem, const CaseKey& key,
   std::optional<LinearSystem> values;
   clock.time(times.assemble, [&] {
     equations = scene.equations(scene.derivatives);
-    check_inertia<Dim>(equations, scene.cloud);
     waves.system = assemble(equations, scene.weights, scene.unknowns, fields);
     values = value_rows<Dim>(scene, fields);
   });
