@@ -219,8 +219,7 @@ TEST(WaveProblems, AreSolvedInEveryForm) {
   }
 }
 
-/// Measured: 4.2e-2 with 7 x 31 nodes, 2.7e-3 with 13 x 13. Weak rows with lumped inertia are
-/// symmetric: nothing grows, without damping.
+/// Measured: 4.2e-2 with 7 x 31 nodes, 2.7e-3 with 13 x 13, both mostly of the steps in time.
 TEST(WaveProblems, AreSolvedSpectrallyOnBlocks) {
   const auto run = [](const char* problem, const char* cloud, const char* time) {
     const CaseKey key{
