@@ -85,7 +85,9 @@ std::optional<double> strength_within(const Eigen::VectorXcd& eigenvalues, Dampi
   constexpr double precision = 1e-3;
   double first = 0;  // of the strengths since which all are calm
   double last_bad = least;
-  for (double strength = least; strength <= margin * most; strength *= ratio) {
+  const int steps = static_cast<int>(std::log(margin * most / least) / std::log(ratio));
+  for (int i = 0; i <= steps; ++i) {
+    const double strength = least * std::pow(ratio, i);
     if (!is_calm(strength)) {
       first = 0;
       last_bad = strength;
