@@ -146,12 +146,12 @@ template <int Dim>
 void TransientRun<Dim>::choose_steps() {
   const TimeSpec time = parse_time(time_.integrator());
   const Damping damping = make_damping(time_.damping);
-  node_time_ = strongpoint::node_time<Dim>(problem_, waves_);
+  const double radius = spectral_radius(*waves_.motion);
+  node_time_ = strongpoint::node_time<Dim>(problem_, waves_, radius);
   const double longest =
       time.courant ? *time.courant * node_time_ : time.dt.value_or(problem_.time_step());
   steps_ = steps_until(time_.t_end.value_or(problem_.end_time()), longest, time.spec);
   if (time_.noise) noise_steps_ = steps_until(*time_.noise, longest, time.spec);
-  const double radius = spectral_radius(*waves_.motion);
   const double limit = stable_step(time.spec, radius, damping, node_time_);
   const double dt = std::max(steps_.dt, noise_steps_.dt);
   if (dt <= limit) return;
@@ -162,13 +162,16 @@ void TransientRun<Dim>::choose_steps() {
 }
 
 /// Looks at the state after a step: whether it may still be called a solution. Where K is symmetric
-/// the root of twice the energy grows no faster than the accelerations of the load add up.
+/// the root of twice the energy grows no faster than the accelerations of the load add up: those of
+/// all steps before, and that at the end of this one, which may be the first that is not tiny.
 template <int Dim>
 bool TransientRun<Dim>::look_at(const MotionState& state) {
   constexpr double factor = 10;  // for K that is not symmetric
-  const double load = problem_.load(steps_.time(state.step - 1));
-  memory_.speed += steps_.dt * std::abs(load) * load_norm_;
-  diverged_ = !(state.velocity.norm() <= factor * memory_.speed);
+  const auto gained = [&](std::int64_t step) {
+    return steps_.dt * std::abs(problem_.load(steps_.time(step))) * load_norm_;
+  };
+  memory_.speed += gained(state.step - 1);
+  diverged_ = !(state.velocity.norm() <= factor * (memory_.speed + gained(state.step)));
   if (state.step == steps_.count / 2) memory_.half_energy = energy(*waves_.motion, state);
   return !diverged_;
 }
