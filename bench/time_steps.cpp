@@ -8,6 +8,7 @@
 #include "bench/report.hpp"
 #include "problems/core/integrator.hpp"
 #include "problems/core/problem.hpp"
+#include "problems/core/spectrum.hpp"
 #include "studies/support/waves.hpp"
 
 extern "C" {
@@ -37,7 +38,7 @@ void time_steps(benchmark::State& state, const StepCase& choice) {
   StageTimes times;
   const Waves<Dim> waves = make_waves<Dim>(problem, key, {}, times);
   const CondensedMotion& motion = *waves.motion;
-  const double q = node_time<Dim>(problem, waves);
+  const double q = node_time<Dim>(problem, waves, spectral_radius(motion));
   const DampedMotion damped(motion, make_damping(choice.damping), q);
   const LoadHistory load = [&](double t) { return problem.load(t); };
   const auto integrator = make_integrator(choice.time, {damped, load, q / 2});

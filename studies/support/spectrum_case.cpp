@@ -204,9 +204,9 @@ CaseResult run_case(const TransientProblem<Dim>& problem, const CaseKey& key,
                {},      {}};
   clock.time(result.times.solve, [&] {
     const Motion& motion = *run.waves.motion;
-    run.node_time = node_time<Dim>(problem, run.waves);
     run.figures = takes_dense(spectrum.engine, motion.size()) ? dense_figures(motion)
                                                               : sparse_figures(motion, lowest);
+    run.node_time = node_time<Dim>(problem, run.waves, run.figures.radius);
     add_figures<Dim>(run);
     if (const auto* known = dynamic_cast<const EigenProblem<Dim>*>(&problem)) {
       add_modes<Dim>(run, *known);

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "problems/core/assembly.hpp"
-#include "problems/core/spectrum.hpp"
 
 namespace strongpoint {
 namespace {
@@ -74,14 +73,6 @@ Waves<Dim> make_waves(const TransientProblem<Dim>& problem, const CaseKey& key,
 }
 
 template <int Dim>
-double node_time(const TransientProblem<Dim>& problem, const Waves<Dim>& waves) {
-  if (const std::optional<double> h = common_spacing<Dim>(waves.scene->cloud)) {
-    return *h / problem.wave_speed();
-  }
-  return 2 / std::sqrt(spectral_radius(*waves.motion));
-}
-
-template <int Dim>
 double node_time(const TransientProblem<Dim>& problem, const Waves<Dim>& waves,
                  double spectral_radius) {
   const std::optional<double> h = common_spacing<Dim>(waves.scene->cloud);
@@ -91,7 +82,6 @@ double node_time(const TransientProblem<Dim>& problem, const Waves<Dim>& waves,
 #define STRONGPOINT_INSTANTIATE(Dim) /* the same for each dimension */                            \
   template Waves<Dim> make_waves(const TransientProblem<Dim>&, const CaseKey&, const RunOptions&, \
                                  StageTimes&);                                                    \
-  template double node_time(const TransientProblem<Dim>&, const Waves<Dim>&);                     \
   template double node_time(const TransientProblem<Dim>&, const Waves<Dim>&, double)
 STRONGPOINT_INSTANTIATE(1);
 STRONGPOINT_INSTANTIATE(2);

@@ -23,11 +23,8 @@ Waves<Dim> make_waves(const TransientProblem<Dim>& problem, const CaseKey& key,
                       const RunOptions& options, StageTimes& times);
 
 /// The time q that a wave takes from node to node: spacing over the speed of the fastest wave on
-/// structured clouds with the same spacing along all axes, 2 / sqrt(spectral radius) elsewhere.
-template <int Dim>
-double node_time(const TransientProblem<Dim>& problem, const Waves<Dim>& waves);
-
-/// The same where the spectral radius is known.
+/// structured clouds with the same spacing along all axes, 2 / sqrt(spectral radius of K)
+/// elsewhere.
 template <int Dim>
 double node_time(const TransientProblem<Dim>& problem, const Waves<Dim>& waves,
                  double spectral_radius);
