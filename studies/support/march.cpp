@@ -51,7 +51,7 @@ Steps steps_until(double end, double longest, const std::string& spec) {
                     "longer step or an earlier end",
                     count, longest, end));
   }
-  return {spec, end / count, end, static_cast<std::int64_t>(count)};
+  return {spec, end / count, end, static_cast<std::int64_t>(count), longest};
 }
 
 std::string save_state(const MotionState& state, const March& march) {

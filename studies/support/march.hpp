@@ -18,6 +18,7 @@ struct Steps {
   std::string spec;  ///< of the integrator
   double dt = 0, end = 0;
   std::int64_t count = 0;
+  double longest = 0;  ///< what `dt` was to be at most
 
   /// Time at the end of a step.
   double time(std::int64_t step) const {

@@ -60,8 +60,9 @@ Quantity noise_growth(const DampedMotion& motion, const Steps& steps,
                       std::int64_t earlier) {
   Quantity growth{"growth_rate", {}, {}, {}};
   if (steps.count < least_steps) {
-    growth.reason = fmt::format("the noise runs for {} steps; take --noise {:.3g} or more",
-                                steps.count, steps.end * least_steps / steps.count);
+    growth.reason =
+        fmt::format("the noise runs for less than {} steps; take --noise {:.3g} or more",
+                    least_steps, steps.longest * least_steps);
     return growth;
   }
   const LoadHistory none = [](double) { return 0.0; };
