@@ -111,8 +111,8 @@ double spectral_radius(const Motion& motion) {
   solver.init();
   if (solver.compute(Spectra::SortRule::LargestMagn, restarts, tolerance) < 1) {
     throw CaseError(
-        "the spectral radius of the operator did not converge; choose the time step by "
-        "dt= instead");
+        "the spectral radius of the operator did not converge; take another stencil, cloud or "
+        "level");
   }
   return std::abs(solver.eigenvalues()[0]);
 }

@@ -27,7 +27,8 @@ double eigenvector_condition(const EigenPairs& pairs);
 /// Largest |K u - lambda u| / (|lambda| |u|) of the pairs; 0 / 0 counts as 0. Products: two a pair.
 double eigen_residual(const Motion& motion, const EigenPairs& pairs);
 
-/// How fast the fastest growing vibration of u'' = K u grows: max Re sqrt(lambda), 1 over time.
+/// How fast the fastest growing vibration of u'' = K u grows: max Re sqrt(lambda), 1 over time;
+/// `fastest_growth` says the same with damping, `find_growth` without eigenvalues.
 double growth_rate(const Eigen::VectorXcd& eigenvalues);
 
 /// Largest |eigenvalue| of K to about three digits, from products alone. Throws CaseError when the
@@ -36,8 +37,9 @@ double spectral_radius(const Motion& motion);
 
 /// The `count` eigenvalues nearest to 0 with their eigenvectors, nearest first, to about ten
 /// digits; one factorisation. A pair of complex ones may be cut in two at the end. Throws CaseError
-/// when the iteration does not converge or K is singular, UsageError when `count` is not from 1 to
-/// the size. Source: Arnoldi iteration on the inverse, in Spectra.
+/// when the iteration does not converge or the factorisation fails, UsageError when `count` is not
+/// from 1 to the size. Source: Arnoldi iteration on the inverse of K but for a shift by 1e-10 of
+/// its spectral radius, in Spectra.
 EigenPairs lowest_modes(const Motion& motion, int count);
 
 /// The `count` largest eigenvalues in magnitude with their eigenvectors, largest first, to about
