@@ -24,9 +24,9 @@ std::vector<double> parse_waves(const std::string& text) {
     const bool is_read = error == std::errc() && stop == part.data() + part.size();
     if (!is_read || !(wave > 0 && wave <= 1)) {
       throw UsageError(fmt::format(
-          "--waves {}: '{}' is not allowed; give wavenumbers times the spacing over pi, above 0 "
-          "and up to 1, such as 0.1,0.5,1",
-          text, part));
+          "'{}' is not allowed; give wavenumbers times the spacing over pi, above 0 and up to 1, "
+          "such as 0.1,0.5,1",
+          part));
     }
     if (std::find(waves.begin(), waves.end(), wave) == waves.end()) waves.push_back(wave);
     start = end + 1;
@@ -42,9 +42,9 @@ void read_time(const std::string& text, DispersionOptions& options) {
   const TimeSpec time = parse_time(text);
   if (!time.spec.starts_with("central")) {
     throw UsageError(
-        fmt::format("--time {}: waves are followed with `{}` and with central "
-                    "differences, as in central[dt=1e-5] or central[courant=0.5]",
-                    text, exact_in_time));
+        fmt::format("waves are followed with `{}` and with central differences, as in "
+                    "central[dt=1e-5] or central[courant=0.5]",
+                    exact_in_time));
   }
   options.time = time.spec;
   options.dt = time.dt;
