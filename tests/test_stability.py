@@ -137,8 +137,8 @@ class Safe(StudyTest):
                       ("other", "grid", {"all": ""}, "skipped"))
         done = self.safe()
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("| `bar_2d grid` | 2 of 3 | recommended, smallest error | `exact star` | 0.2 | 0.02 | 0.50 |", done.stdout)
-        self.assertIn("| `bar_2d grid` | 2 of 3 | smallest g | `mild star` | 0.02 | 0.05 | 0.50 |", done.stdout)
+        self.assertIn("| `bar_2d grid` | 2 of 3 | recommended, smallest error | `exact star` | 0.15 | 0.02 | 0.50 |", done.stdout)
+        self.assertIn("| `bar_2d grid` | 2 of 3 | smallest g | `mild star` | 0.015 | 0.05 | 0.50 |", done.stdout)
         self.assertNotIn("`best star`", done.stdout)
         self.assertEqual((self.directory / "out.md").read_text(encoding="utf-8"), done.stdout)
         for suffix in ("png", "svg"):
@@ -150,6 +150,12 @@ class Safe(StudyTest):
         done = self.safe()
         self.assertIn("| recommended, smallest g | `quick star` |", done.stdout)
         self.assertIn("| smallest error | `slow star` |", done.stdout)
+
+    def test_the_step_that_is_told_holds_with_the_g_that_is_told(self):
+        rounded = self.case(1, 0.0674, 0.02, 1) | {"stable_step_damped": 0.676}  # 0.1011 was run
+        self.table_of(("one", "grid", rounded, "ok"))
+        # x^2 + 8 g x = 1: 0.6752 with 0.1011, 0.6532 with 0.11.
+        self.assertIn("| `one star` | 0.11 | 0.02 | 0.65 |", self.safe().stdout)
 
     def test_a_setting_has_to_be_safe_at_every_level(self):
         self.table_of(("one", "grid", self.case(1, 0.1, 0.02, 1), "ok"), ("one", "grid", self.case(1, "", "", 2), "ok"))
