@@ -2,44 +2,17 @@
 #include <cmath>
 #include <complex>
 
-#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include "methods/core/error.hpp"
 #include "problems/core/integrator.hpp"
 #include "tests/linear_systems.hpp"
+#include "tests/matrix_motion.hpp"
 
 namespace strongpoint {
 namespace {
 
 using Complex = std::complex<double>;
-
-/// u'' = K u + load f with a dense K.
-class DenseMotion final : public Motion {
- public:
-  DenseMotion(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& load)
-      : matrix_(matrix), load_(load) {}
-  int size() const override { return static_cast<int>(matrix_.rows()); }
-  void apply(const Eigen::VectorXd& u, Eigen::VectorXd& product) const override {
-    product.noalias() = matrix_ * u;
-  }
-  const Eigen::VectorXd& load() const override { return load_; }
-  std::unique_ptr<ShiftedMotion> shifted(double factor) const override {
-    return std::make_unique<Factors>(Eigen::MatrixXd::Identity(size(), size()) - factor * matrix_);
-  }
-
- private:
-  class Factors final : public ShiftedMotion {
-   public:
-    explicit Factors(const Eigen::MatrixXd& matrix) : lu_(matrix) {}
-    void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const override { x = lu_.solve(b); }
-
-   private:
-    Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
-  };
-  Eigen::MatrixXd matrix_;
-  Eigen::VectorXd load_;
-};
 
 const std::vector<std::string>& all_specs() {
   static const std::vector<std::string> specs{"central",           "rk4",
@@ -101,8 +74,8 @@ double exact(double t, const Damping& damping) {
 }
 
 double error_at_two(const std::string& spec, const Damping& damping, int steps) {
-  const DenseMotion motion(Eigen::MatrixXd::Constant(1, 1, -omega * omega),
-                           Eigen::VectorXd::Constant(1, 1));
+  const MatrixMotion motion(Eigen::MatrixXd::Constant(1, 1, -omega * omega),
+                            Eigen::VectorXd::Constant(1, 1));
   const DampedMotion damped(motion, damping, node_time);
   const MotionState end = run(
       spec, damped, [](double t) { return std::exp(-t); }, 2.0 / steps, steps, initial(1, 2));
@@ -138,8 +111,8 @@ TEST(Integrators, ReachTheirOrderOnAForcedVibrationWithAndWithoutDamping) {
 }
 
 TEST(Integrators, StartAndEndWithTheVelocityTheyPromise) {
-  const DenseMotion motion(Eigen::MatrixXd::Constant(1, 1, -omega * omega),
-                           Eigen::VectorXd::Zero(1));
+  const MatrixMotion motion(Eigen::MatrixXd::Constant(1, 1, -omega * omega),
+                            Eigen::VectorXd::Zero(1));
   const DampedMotion free(motion, undamped, node_time);
   const LoadHistory none = [](double) { return 0.0; };
   constexpr double dt = 1e-3;
@@ -157,7 +130,7 @@ TEST(Amplification, EqualsTheGrowthOfALongRun) {
   const Complex lambda(-9, 1.5);
   Eigen::Matrix2d matrix;
   matrix << lambda.real(), -lambda.imag(), lambda.imag(), lambda.real();
-  const DenseMotion motion(matrix, Eigen::VectorXd::Zero(2));
+  const MatrixMotion motion(matrix);
   const LoadHistory none = [](double) { return 0.0; };
   constexpr double dt = 0.1;
   constexpr int steps = 400;
@@ -224,42 +197,10 @@ TEST(Amplification, OfGeneralisedAlphaAtHighFrequencyIsRhoInf) {
   }
 }
 
-TEST(StableStep, OfUndampedIntegratorsIsTheTextbooks) {
-  constexpr double radius = 49;  // omega = 7
-  // A tolerance of 1e-6 in the growth decides the limit; rk4 passes 1 with a finite slope.
-  constexpr double precision = 3e-6;
-  EXPECT_NEAR(stable_step("central", radius, undamped, 1), 2.0 / 7, precision);
-  EXPECT_NEAR(stable_step("rk4", radius, undamped, 1), std::sqrt(8.0) / 7, precision);
-  EXPECT_NEAR(stable_step("newmark[beta=0]", radius, undamped, 1), 2.0 / 7, precision);
-  // y^2 = 4 / (1 - 4 beta) with gamma = 1/2.
-  EXPECT_NEAR(stable_step("newmark[beta=0.1]", radius, undamped, 1), 2 / std::sqrt(0.6) / 7,
-              precision);
-  for (const char* spec : {"newmark", "generalised_alpha", "generalised_alpha[rho_inf=0]",
-                           "generalised_alpha[rho_inf=1]"}) {
-    EXPECT_TRUE(std::isinf(stable_step(spec, radius, undamped, 1))) << spec;
-    EXPECT_TRUE(std::isinf(stable_step(spec, radius, stiffness, 1))) << spec;
-  }
-  EXPECT_TRUE(std::isinf(stable_step("central", 0, undamped, 1)));
-}
-
-TEST(StableStep, OfDampedCentralDifferencesIsItsClosedForm) {
-  constexpr double q = 0.05;
-  constexpr double radius = 4 / (q * q);
-  for (const double strength : {0.01, 0.1, 0.5, 5.0, 100.0}) {
-    // x^2 + 8 g x = 1 and x^2 + 2 eta x = 1.
-    const double with_hyper = 1 / (std::hypot(1, 4 * strength) + 4 * strength);
-    const double with_stiffness = 1 / (std::hypot(1, strength) + strength);
-    EXPECT_NEAR(stable_step("central", radius, {Damping::Kind::hyper, strength}, q) / q, with_hyper,
-                1e-5 * with_hyper);
-    EXPECT_NEAR(stable_step("central", radius, {Damping::Kind::stiffness, strength}, q) / q,
-                with_stiffness, 1e-5 * with_stiffness);
-  }
-}
-
 TEST(Integrators, KeepTheEnergyWithNewmarkAtAnyStep) {
   Eigen::Matrix3d matrix;
   matrix << -5, 1, 0.5, 1, -4, 2, 0.5, 2, -1000;
-  const DenseMotion motion(matrix, Eigen::VectorXd::Zero(3));
+  const MatrixMotion motion(matrix);
   const DampedMotion free(motion, undamped, 1);
   const auto energy = [&](const MotionState& state) {
     return (state.velocity.squaredNorm() - state.displacement.dot(matrix * state.displacement)) / 2;
@@ -282,7 +223,7 @@ TEST(Integrators, KeepTheEnergyWithNewmarkAtAnyStep) {
 TEST(Integrators, ContinueFromACopiedStateToTheSameBits) {
   std::mt19937_64 generator(7);
   const Eigen::MatrixXd matrix = -dominant_matrix(6, 0.5, generator);
-  const DenseMotion motion(matrix, random_vector(6, generator));
+  const MatrixMotion motion(matrix, random_vector(6, generator));
   const LoadHistory load = [](double t) { return std::sin(3 * t); };
   MotionState first;
   first.displacement = random_vector(6, generator);
@@ -303,7 +244,7 @@ TEST(Integrators, ContinueFromACopiedStateToTheSameBits) {
 }
 
 TEST(Integrators, RefuseWhatTheyCannotTakeAndSayWhatToDo) {
-  const DenseMotion motion(-Eigen::MatrixXd::Identity(2, 2), Eigen::VectorXd::Zero(2));
+  const MatrixMotion motion(-Eigen::MatrixXd::Identity(2, 2));
   const DampedMotion damped(motion, hyper, 1);
   const LoadHistory none = [](double) { return 0.0; };
   for (const char* spec : {"newmark", "generalised_alpha"}) {

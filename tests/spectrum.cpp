@@ -12,39 +12,10 @@
 #include "methods/core/error.hpp"
 #include "problems/core/sparse_growth.hpp"
 #include "studies/support/waves.hpp"
+#include "tests/matrix_motion.hpp"
 
 namespace strongpoint {
 namespace {
-
-/// A motion given by its matrix.
-class MatrixMotion final : public Motion {
- public:
-  explicit MatrixMotion(Eigen::MatrixXd matrix)
-      : matrix_(std::move(matrix)), load_(Eigen::VectorXd::Zero(matrix_.rows())) {}
-  int size() const override { return static_cast<int>(matrix_.rows()); }
-  void apply(const Eigen::VectorXd& u, Eigen::VectorXd& product) const override {
-    product.noalias() = matrix_ * u;
-  }
-  const Eigen::VectorXd& load() const override { return load_; }
-  std::unique_ptr<ShiftedMotion> shifted(double factor) const override {
-    return std::make_unique<Inverse>(Eigen::MatrixXd::Identity(size(), size()) - factor * matrix_);
-  }
-  const Eigen::MatrixXd& matrix() const { return matrix_; }
-
- private:
-  class Inverse final : public ShiftedMotion {
-   public:
-    explicit Inverse(const Eigen::MatrixXd& matrix) : factors_(matrix) {}
-    void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const override {
-      x = factors_.solve(b);
-    }
-
-   private:
-    Eigen::PartialPivLU<Eigen::MatrixXd> factors_;
-  };
-  Eigen::MatrixXd matrix_;
-  Eigen::VectorXd load_;
-};
 
 /// Sorted by real part, then imaginary part.
 Eigen::VectorXcd sorted(Eigen::VectorXcd values) {

@@ -188,5 +188,36 @@ TEST(Growth, TooWeakADampingHasNoStableStep) {
   EXPECT_EQ(stable_step(eigenvalues, {Kind::hyper, 0.5 * least}, q), 0);
 }
 
+TEST(StableStep, OfUndampedIntegratorsIsTheTextbooks) {
+  constexpr double radius = 49;  // omega = 7
+  // A tolerance of 1e-6 in the growth decides the limit; rk4 passes 1 with a finite slope.
+  constexpr double precision = 3e-6;
+  EXPECT_NEAR(stable_step("central", radius, {}, 1), 2.0 / 7, precision);
+  EXPECT_NEAR(stable_step("rk4", radius, {}, 1), std::sqrt(8.0) / 7, precision);
+  EXPECT_NEAR(stable_step("newmark[beta=0]", radius, {}, 1), 2.0 / 7, precision);
+  // y^2 = 4 / (1 - 4 beta) with gamma = 1/2.
+  EXPECT_NEAR(stable_step("newmark[beta=0.1]", radius, {}, 1), 2 / std::sqrt(0.6) / 7, precision);
+  for (const char* spec : {"newmark", "generalised_alpha", "generalised_alpha[rho_inf=0]",
+                           "generalised_alpha[rho_inf=1]"}) {
+    EXPECT_TRUE(std::isinf(stable_step(spec, radius, {}, 1))) << spec;
+    EXPECT_TRUE(std::isinf(stable_step(spec, radius, {Kind::stiffness, 0.1}, 1))) << spec;
+  }
+  EXPECT_TRUE(std::isinf(stable_step("central", 0, {}, 1)));
+}
+
+TEST(StableStep, OfDampedCentralDifferencesIsItsClosedForm) {
+  constexpr double q = 0.05;
+  constexpr double radius = 4 / (q * q);
+  for (const double strength : {0.01, 0.1, 0.5, 5.0, 100.0}) {
+    // x^2 + 8 g x = 1 and x^2 + 2 eta x = 1.
+    const double with_hyper = 1 / (std::hypot(1, 4 * strength) + 4 * strength);
+    const double with_stiffness = 1 / (std::hypot(1, strength) + strength);
+    EXPECT_NEAR(stable_step("central", radius, {Kind::hyper, strength}, q) / q, with_hyper,
+                1e-5 * with_hyper);
+    EXPECT_NEAR(stable_step("central", radius, {Kind::stiffness, strength}, q) / q, with_stiffness,
+                1e-5 * with_stiffness);
+  }
+}
+
 }  // namespace
 }  // namespace strongpoint

@@ -277,32 +277,19 @@ StageTimes fastest(const StageTimes& a, const StageTimes& b) {
           .residual = std::max(a.residual, b.residual)};
 }
 
-template CaseResult solve_steady(const SteadyProblem<3>&, const CaseKey&, const RunOptions&);
-template CaseResult solve_steady(const SteadyProblem<2>&, const CaseKey&, const RunOptions&);
-template CaseResult solve_steady(const SteadyProblem<1>&, const CaseKey&, const RunOptions&);
-template Solution<1> solution_of(const Discretisation<1>&, const Eigen::VectorXd&);
-template Solution<2> solution_of(const Discretisation<2>&, const Eigen::VectorXd&);
-template Solution<3> solution_of(const Discretisation<3>&, const Eigen::VectorXd&);
-template PointCloud<1> make_case_cloud(const Domain<1>&, const CaseKey&, const RunOptions&);
-template PointCloud<2> make_case_cloud(const Domain<2>&, const CaseKey&, const RunOptions&);
-template PointCloud<3> make_case_cloud(const Domain<3>&, const CaseKey&, const RunOptions&);
-template void choose_stencils(Discretisation<1>&, const Domain<1>&, const Choices<1>&,
-                              const RunOptions&, const StageClock&, StageTimes&);
-template void choose_stencils(Discretisation<2>&, const Domain<2>&, const Choices<2>&,
-                              const RunOptions&, const StageClock&, StageTimes&);
-template void choose_stencils(Discretisation<3>&, const Domain<3>&, const Choices<3>&,
-                              const RunOptions&, const StageClock&, StageTimes&);
-template void compute_weights(Discretisation<1>&, const Domain<1>&, const Choices<1>&,
-                              const RunOptions&, const StageClock&, StageTimes&);
-template void compute_weights(Discretisation<2>&, const Domain<2>&, const Choices<2>&,
-                              const RunOptions&, const StageClock&, StageTimes&);
-template void compute_weights(Discretisation<3>&, const Domain<3>&, const Choices<3>&,
-                              const RunOptions&, const StageClock&, StageTimes&);
-template std::unique_ptr<Discretisation<1>> discretise(const SteadyProblem<1>&, const CaseKey&,
-                                                       const RunOptions&, StageTimes&, Upto);
-template std::unique_ptr<Discretisation<2>> discretise(const SteadyProblem<2>&, const CaseKey&,
-                                                       const RunOptions&, StageTimes&, Upto);
-template std::unique_ptr<Discretisation<3>> discretise(const SteadyProblem<3>&, const CaseKey&,
-                                                       const RunOptions&, StageTimes&, Upto);
+#define STRONGPOINT_INSTANTIATE(Dim) /* the same for each dimension */                             \
+  template CaseResult solve_steady(const SteadyProblem<Dim>&, const CaseKey&, const RunOptions&);  \
+  template Solution<Dim> solution_of(const Discretisation<Dim>&, const Eigen::VectorXd&);          \
+  template PointCloud<Dim> make_case_cloud(const Domain<Dim>&, const CaseKey&, const RunOptions&); \
+  template void choose_stencils(Discretisation<Dim>&, const Domain<Dim>&, const Choices<Dim>&,     \
+                                const RunOptions&, const StageClock&, StageTimes&);                \
+  template void compute_weights(Discretisation<Dim>&, const Domain<Dim>&, const Choices<Dim>&,     \
+                                const RunOptions&, const StageClock&, StageTimes&);                \
+  template std::unique_ptr<Discretisation<Dim>> discretise(                                        \
+      const SteadyProblem<Dim>&, const CaseKey&, const RunOptions&, StageTimes&, Upto)
+STRONGPOINT_INSTANTIATE(1);
+STRONGPOINT_INSTANTIATE(2);
+STRONGPOINT_INSTANTIATE(3);
+#undef STRONGPOINT_INSTANTIATE
 
 }  // namespace strongpoint
