@@ -28,6 +28,12 @@ unsigned axes_of(const std::vector<SymmetryPlane>& planes, unsigned chosen) {
 
 }  // namespace
 
+Symmetry symmetry_choice(const Options& options) {
+  return options.choice<Symmetry>(
+      "symmetry",
+      {{"default", Symmetry::by_default}, {"rows", Symmetry::rows}, {"images", Symmetry::images}});
+}
+
 template <int Dim>
 std::vector<SymmetryPlane> mirrored_planes(const SteadyProblem<Dim>& problem, Symmetry symmetry) {
   const bool images =

@@ -15,6 +15,9 @@ enum class Symmetry {
   images       ///< mirror images of nodes, so that stencils are not cut off at the plane
 };
 
+/// The value of a form's option `symmetry`: rows, images or default.
+Symmetry symmetry_choice(const Options& options);
+
 /// Symmetry planes whose nodes' conditions are replaced by images.
 template <int Dim>
 std::vector<SymmetryPlane> mirrored_planes(const SteadyProblem<Dim>& problem, Symmetry symmetry);

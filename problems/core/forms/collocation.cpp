@@ -292,10 +292,7 @@ FormEntry form_collocation() {
                     options.choice<Boundary>("boundary", {{"plain", Boundary::plain},
                                                           {"ghost", Boundary::ghost},
                                                           {"combined", Boundary::combined}}),
-                    options.choice<Symmetry>("symmetry", {{"default", Symmetry::by_default},
-                                                          {"rows", Symmetry::rows},
-                                                          {"images", Symmetry::images}}),
-                    options.number("alpha", 0.01, 10));
+                    symmetry_choice(options), options.number("alpha", 0.01, 10));
               })};
 }
 

@@ -248,9 +248,7 @@ FormEntry form_flux() {
                     options.integer("gauss", 1, 4),
                     options.choice<FaceStencils>(
                         "faces", {{"one", FaceStencils::one}, {"both", FaceStencils::both}}),
-                    options.choice<Symmetry>("symmetry", {{"default", Symmetry::by_default},
-                                                          {"rows", Symmetry::rows},
-                                                          {"images", Symmetry::images}}));
+                    symmetry_choice(options));
               })};
 }
 
