@@ -10,7 +10,8 @@
 namespace strongpoint {
 
 /// How vibrations that the nodes do not resolve are damped; q is the time that a wave takes from
-/// node to node.
+/// node to node. Source: Rayleigh's damping in proportion to stiffness; hyperviscosity as Fornberg
+/// & Lehto 2011, with K for their Laplacian and the velocity for the field.
 struct Damping {
   enum class Kind {
     none,       ///< u'' = K u
