@@ -277,6 +277,9 @@ StageTimes fastest(const StageTimes& a, const StageTimes& b) {
           .residual = std::max(a.residual, b.residual)};
 }
 
+template <int Dim>
+using ScenePointer = std::unique_ptr<Discretisation<Dim>>;
+
 #define STRONGPOINT_INSTANTIATE(Dim) /* the same for each dimension */                             \
   template CaseResult solve_steady(const SteadyProblem<Dim>&, const CaseKey&, const RunOptions&);  \
   template Solution<Dim> solution_of(const Discretisation<Dim>&, const Eigen::VectorXd&);          \
@@ -285,8 +288,8 @@ StageTimes fastest(const StageTimes& a, const StageTimes& b) {
                                 const RunOptions&, const StageClock&, StageTimes&);                \
   template void compute_weights(Discretisation<Dim>&, const Domain<Dim>&, const Choices<Dim>&,     \
                                 const RunOptions&, const StageClock&, StageTimes&);                \
-  template std::unique_ptr<Discretisation<Dim>> discretise(                                        \
-      const SteadyProblem<Dim>&, const CaseKey&, const RunOptions&, StageTimes&, Upto)
+  template ScenePointer<Dim> discretise(const SteadyProblem<Dim>&, const CaseKey&,                 \
+                                        const RunOptions&, StageTimes&, Upto)
 STRONGPOINT_INSTANTIATE(1);
 STRONGPOINT_INSTANTIATE(2);
 STRONGPOINT_INSTANTIATE(3);
