@@ -1,4 +1,4 @@
-#!/ usr / bin / python3
+#!/usr/bin/python3
 """Waves: the figures known from other code within their tolerances, and what keeps long runs bounded."""
 import unittest
 
@@ -60,7 +60,7 @@ class Figures(unittest.TestCase):
                        "central[courant=0.1]")
 
     def test_perturbed_plane_bar(self):
-#The bands known are .224 - .229, .079 - .081, .021 on three seeds of another generator.
+        # The bands known are .224-.229, .079-.081, .021 on three seeds of another generator.
         for seed in SEEDS:
             self.check((.2265, .080, .021), 0.05, "--problem", "bar_2d", *FIFTEEN, "--cloud",
                        f"perturbed[amount=0.3,seed={seed}]", "--levels", "41,81,161", "--time", HALF,
@@ -71,11 +71,11 @@ class Figures(unittest.TestCase):
                    "--levels", "11,21,41,81")
 
     def test_damped_annulus(self):
-# 1e-3 is next to nothing : with a tenth of q, 8 %, 5 % and 13 % apart.
+        # 1e-3 is next to nothing: with a tenth of q, 8 %, 5 % and 13 % apart.
         self.check((5.9e-3, 7.3e-4, 1.4e-4), 0.1, "--problem", "annulus_elastic", *BLOCK, "--levels",
                    "21,41,81", "--damping", "hyper[g=0.1]", "--time", "central[dt=1e-3]")
-#Known from other code : 3.0e-2, 3.0e-3, 4.7e-4. These are smaller; no reading of steps,
-#damping and stencils tried gives those.
+        # Known from other code: 3.0e-2, 3.0e-3, 4.7e-4. These are smaller; no reading of steps,
+        # damping and stencils tried gives those.
         self.check((2.67e-2, 2.56e-3, 3.25e-4), 0.02, "--problem", "annulus_elastic", *FIFTEEN,
                    "--levels", "21,41,81", "--damping", "hyper[g=0.1]", "--time",
                    "central[courant=0.1]")
@@ -111,7 +111,7 @@ class LongRuns(unittest.TestCase):
                     if row["quantity"] == "growth_rate":
                         continue  # of noise, which is not run
                     self.assertEqual(row["reason"], "")
-#The bar is free since t = 1 and loses energy, the annulus swings for ever.
+                    # The bar is free since t = 1 and loses energy, the annulus swings for ever.
                     if row["quantity"] == "energy_ratio":
                         bound = 1 if problem == "bar_2d" else 1.05
                         self.assertLess(float(row["value"]), bound)
