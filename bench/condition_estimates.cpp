@@ -171,12 +171,8 @@ int run(int argc, char** argv) {
     add_method<2>(method.info.name, failed);
     add_method<3>(method.info.name, failed);
   }
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   omp_set_num_threads(1);  // a node's cost, not the machine's width
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
-  return failed ? 1 : 0;
+  return run_registered(argc, argv, failed);
 }
 
 }  // namespace

@@ -97,12 +97,8 @@ int run(int argc, char** argv) {
     add_benchmark<2>(spec, failed);
     add_benchmark<3>(spec, failed);
   }
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   omp_set_num_threads(1);  // a node's cost, not the machine's width
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
-  return failed ? 1 : 0;
+  return run_registered(argc, argv, failed);
 }
 
 }  // namespace

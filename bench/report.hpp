@@ -30,4 +30,14 @@ inline void report_per_node(benchmark::State& state, double nodes, const std::st
   state.SetLabel(label);
 }
 
+/// Runs the registered benchmarks that the command line chooses; `failed` tells afterwards whether
+/// one did. Returns the exit status.
+inline int run_registered(int argc, char** argv, const bool& failed) {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return failed ? 1 : 0;
+}
+
 }  // namespace strongpoint

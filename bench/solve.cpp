@@ -69,11 +69,7 @@ int run(int argc, char** argv) {
       run_guarded(state, failed, [&] { time_solve(state, choice); });
     })->Unit(benchmark::kMillisecond);
   }
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
-  return failed ? 1 : 0;
+  return run_registered(argc, argv, failed);
 }
 
 }  // namespace

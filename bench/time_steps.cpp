@@ -85,11 +85,7 @@ int run(int argc, char** argv) {
       });
     })->Unit(benchmark::kMicrosecond);
   }
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
-  return failed ? 1 : 0;
+  return run_registered(argc, argv, failed);
 }
 
 }  // namespace
