@@ -5,10 +5,11 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
-#include <random>
 #include <vector>
 
 #include <Eigen/Eigenvalues>
+
+#include "problems/core/random.hpp"
 
 namespace strongpoint {
 namespace {
@@ -189,9 +190,7 @@ class Search {
 FoundGrowth find_growth(const Motion& motion, double spectral_radius, std::int64_t budget) {
   Block block(motion, spectral_radius);
   Search search(block, motion.size());
-  std::mt19937_64 numbers(1);
-  Eigen::VectorXd start(motion.size());
-  for (double& x : start) x = static_cast<double>(numbers() >> 11) * 0x1p-53 - 0.5;
+  Eigen::VectorXd start = random_vector(motion.size(), 1);
   // As many columns as there are vibrations that grow nearly as fast as the fastest; 64 MB of them.
   constexpr int most_columns = 320;
   constexpr int most_numbers = 8'000'000;

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include <fmt/format.h>
 
@@ -32,10 +31,8 @@ struct Windows {
 };
 
 MotionState noise(int size) {
-  std::mt19937_64 generator(1);
   MotionState state;
-  state.displacement.resize(size);
-  for (double& u : state.displacement) u = 2 * uniform01(generator) - 1;
+  state.displacement = random_vector(size, 1);
   state.velocity.setZero(size);
   return state;
 }

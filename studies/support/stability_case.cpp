@@ -49,14 +49,6 @@ Quantity quantity(std::string name, std::optional<double> value, std::string rea
   return {std::move(name), value, std::move(reason), {}};
 }
 
-/// A unit vector in a random direction.
-Eigen::VectorXd noise(int size, std::uint64_t seed) {
-  std::mt19937_64 generator(seed);
-  Eigen::VectorXd values(size);
-  for (double& value : values) value = 2 * uniform01(generator) - 1;
-  return values.normalized();
-}
-
 /// How far steps from noise came.
 struct Run {
   std::int64_t steps, survived;
@@ -78,7 +70,7 @@ Run step_noise(const Motion& motion, const Damping& damping, double node_time, d
   const double dt = options.t_end / static_cast<double>(steps);
   const auto integrator = make_integrator("central", {damped, none, dt});
   MotionState state;
-  state.displacement = noise(motion.size(), seed);
+  state.displacement = random_vector(motion.size(), seed).normalized();
   state.velocity = Eigen::VectorXd::Zero(motion.size());
   integrator->start(state);
   while (state.step < steps) {
