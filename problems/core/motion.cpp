@@ -44,18 +44,12 @@ struct Factored {
   }
 };
 
-/// Where each unknown of a system stands among those that move, or behind them.
-struct Places {
-  std::vector<int> of;  ///< (unknowns)
-  int moving = 0;
-};
-
 /// The rows chosen of a system, row i times `factor(i)`, with the columns at their places.
-template <class Matrix, class Factor>
-Matrix rows_of(const LinearSystem& system, const std::vector<int>& rows, const Places& places,
-               const Factor& factor) {
-  Matrix result(static_cast<Eigen::Index>(rows.size()),
-                static_cast<Eigen::Index>(places.of.size()));
+template <class Factor>
+RowMatrix rows_of(const LinearSystem& system, const std::vector<int>& rows,
+                  const std::vector<int>& places, const Factor& factor) {
+  RowMatrix result(static_cast<Eigen::Index>(rows.size()),
+                   static_cast<Eigen::Index>(places.size()));
   std::vector<int> entries(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     entries[i] = static_cast<int>(system.offsets[rows[i] + 1] - system.offsets[rows[i]]);
@@ -63,7 +57,7 @@ Matrix rows_of(const LinearSystem& system, const std::vector<int>& rows, const P
   result.reserve(entries);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     for (std::int64_t e = system.offsets[rows[i]]; e < system.offsets[rows[i] + 1]; ++e) {
-      result.insert(static_cast<Eigen::Index>(i), places.of[system.columns[e]]) =
+      result.insert(static_cast<Eigen::Index>(i), places[system.columns[e]]) =
           factor(rows[i]) * system.values[e];
     }
   }
@@ -102,8 +96,8 @@ RowMatrix stacked(const RowMatrix& top, const RowMatrix& bottom) {
 
 /// Unknowns that move come first, the rest behind them.
 struct CondensedMotion::Blocks {
-  Places places;
-  std::vector<int> resting;               ///< the other unknowns, ascending
+  std::vector<int> places;   ///< (unknowns) of each among those that move, or behind them
+  std::vector<int> resting;  ///< the other unknowns, ascending
   std::optional<MovingRows> moving_rows;  ///< (size, all) [A_II, A_IB] over the inertia
   RowMatrix constraints;                  ///< (rest, all) [A_BI, A_BB]
   ProductMatrix resting_by_moving;        ///< (rest, size) -A_BI
@@ -158,21 +152,20 @@ CondensedMotion::CondensedMotion(const LinearSystem& system, const std::vector<d
   if (moving_.empty()) {
     throw CaseError("no equation has inertia: every node lies on the boundary; raise the level");
   }
-  blocks.places.of.resize(count);
-  blocks.places.moving = size();
-  for (int i = 0; i < size(); ++i) blocks.places.of[moving_[i]] = i;
+  blocks.places.resize(count);
+  for (int i = 0; i < size(); ++i) blocks.places[moving_[i]] = i;
   for (std::size_t i = 0; i < blocks.resting.size(); ++i) {
-    blocks.places.of[blocks.resting[i]] = size() + static_cast<int>(i);
+    blocks.places[blocks.resting[i]] = size() + static_cast<int>(i);
   }
   const auto per_mass = [&](int row) { return 1 / (inertia[row] * system.row_scales[row]); };
   const auto as_is = [](int) { return 1.0; };
-  blocks.moving_rows.emplace(rows_of<RowMatrix>(system, moving_, blocks.places, per_mass),
+  blocks.moving_rows.emplace(rows_of(system, moving_, blocks.places, per_mass),
                              fields_that_move(moving_, system.fields));
-  blocks.constraints = rows_of<RowMatrix>(system, blocks.resting, blocks.places, as_is);
+  blocks.constraints = rows_of(system, blocks.resting, blocks.places, as_is);
   blocks.resting_data = system.right_hand_side(blocks.resting);
   if (values != nullptr) {
     const auto by_scale = [&](int row) { return 1 / values->row_scales[row]; };
-    blocks.values = rows_of<RowMatrix>(*values, moving_, blocks.places, by_scale);
+    blocks.values = rows_of(*values, moving_, blocks.places, by_scale);
     blocks.valued.matrix = stacked(blocks.values, blocks.constraints);
     blocks.valued.compute("the matrix of nodal values and boundary conditions",
                           "take other stencils");
@@ -201,7 +194,7 @@ void CondensedMotion::apply(const Eigen::VectorXd& u, Eigen::VectorXd& product) 
 
 Eigen::VectorXd CondensedMotion::all_unknowns(const Eigen::VectorXd& u, double load) const {
   const Eigen::VectorXd& moving = blocks_->complete(u, load);
-  const std::vector<int>& place = blocks_->places.of;
+  const std::vector<int>& place = blocks_->places;
   Eigen::VectorXd unknowns(static_cast<Eigen::Index>(place.size()));
   for (Eigen::Index i = 0; i < unknowns.size(); ++i) {
     unknowns[i] = place[i] < size() ? moving[place[i]] : blocks_->rest[place[i] - size()];

@@ -34,10 +34,11 @@ class SparseFactor {
   /// UMFPACK's estimate of the reciprocal condition, the smallest over the largest pivot of the
   /// rows as it scales them.
   double pivot_ratio() const { return pivot_ratio_; }
-  /// Solves A x = b, n numbers each, without allocating; `refined`: with steps of iterative
-  /// refinement, as one solves once. Throws std::logic_error for factors with a fault. Not to be
-  /// called from several threads.
+  /// Steps of iterative refinement after a solve: none, or as many as UMFPACK takes by default,
+  /// which suits who solves once.
   enum class Refinement { none, usual };
+  /// Solves A x = b, n numbers each, without allocating. Throws std::logic_error for factors with a
+  /// fault. Not to be called from several threads.
   void solve(const double* b, double* x, Refinement refinement) const;
 
  private:

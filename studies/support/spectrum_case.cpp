@@ -111,10 +111,10 @@ Figure step_growth_of(const Run<Dim>& run) {
     if (lambda.imag() >= 0 || !run.figures.complete) values.push_back(lambda);
   }
   const Damping damping = make_damping(run.options.damping);
+  const Amplification amplification(run.options.time);
   double largest = 0;
   for (const Complex& lambda : values) {
-    largest =
-        std::max(largest, amplification(run.options.time, lambda, damping, run.node_time, dt));
+    largest = std::max(largest, amplification(lambda, damping, run.node_time, dt));
   }
   return {std::log(largest) / dt,
           fmt::format("at a step of {:.4g}{}", dt,
