@@ -79,7 +79,7 @@ class Tables(StudyTest):
         self.assertTrue(provenance["command_line"].startswith("convergence --problem poisson_square"))
         self.assertEqual(provenance["code_version"], from_csv[0]["version"])
         for member in ("compiler", "compiler_flags", "build_type", "eigen", "fmt", "nanoflann",
-                       "umfpack", "cpu", "cores", "threads", "clock", "date"):
+                       "umfpack", "cpu", "simd", "cores", "threads", "clock", "date"):
             self.assertIn(member, provenance)
         self.assertRegex(provenance["date"], r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ$")
 

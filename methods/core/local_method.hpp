@@ -32,6 +32,27 @@ concept LocalKernel = requires(const Kernel kernel, const LocalStencil<Dim>& ste
   { kernel.unsupported(derivatives) } -> std::same_as<std::string>;
 };
 
+/// Some anchors whose stencils a kernel may treat side by side.
+template <int Dim>
+struct StencilBatch {
+  const Sites<Dim>& sites;
+  const Stencils& stencils;
+  const Stencils& points;  ///< evaluation points of each anchor
+  const Derivatives<Dim>& derivatives;
+  std::span<const int> anchors;  ///< none with an empty stencil
+};
+
+/// A kernel that computes many stencils faster than one after the other. `fill_batch` writes the
+/// weights of all points of the anchors it can serve, in the units of the sites, and sets
+/// outcomes[i] of anchors[i]: ok, or undecided where the stencil has to be treated on its own (ill
+/// conditioned, of a size of its own, faulty). What an anchor gets must not depend on the others.
+template <class Kernel, int Dim>
+concept BatchKernel = LocalKernel<Kernel, Dim> &&
+    requires(const Kernel kernel, const StencilBatch<Dim>& batch, typename Kernel::Workspace& work,
+             Weights& weights, std::span<LocalOutcome> outcomes) {
+  {kernel.fill_batch(batch, work, weights, outcomes)};
+};
+
 /// A method whose weights come from a kernel, stencil by stencil: a static loop over the anchors,
 /// parallel, with one workspace a thread and no allocation once the workspaces have grown.
 template <int Dim, class Kernel>
@@ -80,6 +101,9 @@ class LocalMethod : public Method<Dim> {
       throw CaseError(traits_.name + ": an index block is needed but the sites hold none");
     }
   }
+  /// Anchors handed to a thread, and to a kernel's batch, at a time.
+  static constexpr int block_size = 64;
+
   /// Writes the weights of all points of one anchor.
   LocalOutcome fill(const Sites<Dim>& sites, const Stencils& stencils, int anchor,
                     std::span<const int> points, const Derivatives<Dim>& derivatives,
@@ -139,24 +163,34 @@ requires LocalKernel<Kernel, Dim> Weights LocalMethod<Dim, Kernel>::weights(
 const {
   check_needs(sites);
   Weights weights = weights_on_stencils(sites, stencils, derivatives.size());
-  std::vector<LocalOutcome> outcomes(sites.anchor_count(), LocalOutcome::ok);
   const Stencils points = points_by_anchor(sites);
+  const std::vector<int> anchors = stencils.occupied();
+  const int count = static_cast<int>(anchors.size());
+  std::vector<LocalOutcome> outcomes(anchors.size(), LocalOutcome::undecided);
   ParallelErrors errors;
 #pragma omp parallel
   {
     LocalStencil<Dim> local;
     typename Kernel::Workspace work;
-#pragma omp for schedule(dynamic, 64)
-    for (int anchor = 0; anchor < sites.anchor_count(); ++anchor) {
-      if (stencils[anchor].empty()) continue;
-      errors.guard(anchor, [&] {
-        outcomes[anchor] =
-            fill(sites, stencils, anchor, points[anchor], derivatives, local, work, weights);
+#pragma omp for schedule(dynamic)
+    for (int begin = 0; begin < count; begin += block_size) {
+      const auto size = static_cast<std::size_t>(std::min(block_size, count - begin));
+      const std::span block(anchors.data() + begin, size);
+      const std::span results(outcomes.data() + begin, size);
+      errors.guard(begin, [&] {
+        if constexpr (BatchKernel<Kernel, Dim>) {
+          kernel_.fill_batch({sites, stencils, points, derivatives, block}, work, weights, results);
+        }
+        for (std::size_t i = 0; i < size; ++i) {
+          if (results[i] != LocalOutcome::undecided) continue;
+          results[i] =
+              fill(sites, stencils, block[i], points[block[i]], derivatives, local, work, weights);
+        }
       });
     }
   }
   errors.rethrow();
-  throw_first_failure(sites, stencils, outcomes, traits_.name, kernel_.needed_nodes());
+  throw_first_failure(sites, stencils, anchors, outcomes, traits_.name, kernel_.needed_nodes());
   return weights;
 }
 

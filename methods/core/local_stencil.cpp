@@ -59,6 +59,7 @@ std::string explain(LocalOutcome outcome, int size, int needed) {
           "of {} nodes allows no non-negative weights: a point lies outside their convex hull, or "
           "they are too uneven for the second moments; ask for a larger k",
           size);
+    case LocalOutcome::undecided:
     case LocalOutcome::ok:
       break;
   }
@@ -104,12 +105,12 @@ LocalOutcome LocalStencil<Dim>::gather(const Sites<Dim>& sites, std::span<const 
 
 template <int Dim>
 void throw_first_failure(const Sites<Dim>& sites, const Stencils& stencils,
-                         const std::vector<LocalOutcome>& outcomes, std::string_view kernel,
-                         int needed) {
+                         std::span<const int> anchors, std::span<const LocalOutcome> outcomes,
+                         std::string_view kernel, int needed) {
   const auto bad = std::find_if(outcomes.begin(), outcomes.end(),
                                 [](LocalOutcome outcome) { return outcome != LocalOutcome::ok; });
   if (bad == outcomes.end()) return;
-  const int anchor = static_cast<int>(bad - outcomes.begin());
+  const int anchor = anchors[bad - outcomes.begin()];
   const int node = sites.anchor_node[anchor];
   throw CaseError(fmt::format("{}: the stencil of {} at {} {}", kernel,
                               node < 0 ? "the point" : fmt::format("node {}", node),
@@ -120,11 +121,11 @@ void throw_first_failure(const Sites<Dim>& sites, const Stencils& stencils,
 template struct LocalStencil<1>;
 template struct LocalStencil<2>;
 template struct LocalStencil<3>;
-template void throw_first_failure(const Sites<1>&, const Stencils&,
-                                  const std::vector<LocalOutcome>&, std::string_view, int);
-template void throw_first_failure(const Sites<2>&, const Stencils&,
-                                  const std::vector<LocalOutcome>&, std::string_view, int);
-template void throw_first_failure(const Sites<3>&, const Stencils&,
-                                  const std::vector<LocalOutcome>&, std::string_view, int);
+template void throw_first_failure(const Sites<1>&, const Stencils&, std::span<const int>,
+                                  std::span<const LocalOutcome>, std::string_view, int);
+template void throw_first_failure(const Sites<2>&, const Stencils&, std::span<const int>,
+                                  std::span<const LocalOutcome>, std::string_view, int);
+template void throw_first_failure(const Sites<3>&, const Stencils&, std::span<const int>,
+                                  std::span<const LocalOutcome>, std::string_view, int);
 
 }  // namespace strongpoint

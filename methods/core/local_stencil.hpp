@@ -21,6 +21,7 @@ enum class LocalOutcome : std::uint8_t {
   no_centre,   ///< the method needs a node at the anchor, as the first of the stencil
   no_block,    ///< the method needs a full index block of a structured cloud
   not_finite,  ///< a weight came out as NaN or infinity
+  undecided,   ///< a batch leaves the stencil to be treated on its own
   infeasible   ///< no non-negative weights exist: the point lies outside the nodes' convex hull
 };
 
@@ -46,11 +47,12 @@ struct LocalStencil {
   LocalOutcome gather(const Sites<Dim>& sites, std::span<const int> nodes, int anchor);
 };
 
-/// Throws CaseError for the lowest anchor whose outcome is not ok; says what, where and the remedy.
+/// Throws CaseError for the first of some anchors whose outcome is not ok; says what, where and the
+/// remedy.
 /// `needed` is the number of nodes that the local system takes at least.
 template <int Dim>
 void throw_first_failure(const Sites<Dim>& sites, const Stencils& stencils,
-                         const std::vector<LocalOutcome>& outcomes, std::string_view kernel,
-                         int needed);
+                         std::span<const int> anchors, std::span<const LocalOutcome> outcomes,
+                         std::string_view kernel, int needed);
 
 }  // namespace strongpoint

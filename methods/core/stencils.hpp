@@ -16,6 +16,15 @@ struct Stencils {
   std::span<const int> operator[](int anchor) const {
     return {nodes.data() + offsets[anchor], nodes.data() + offsets[anchor + 1]};
   }
+  /// The anchors whose stencils are not empty, ascending.
+  std::vector<int> occupied() const {
+    std::vector<int> anchors;
+    anchors.reserve(offsets.size());
+    for (int anchor = 0; anchor < size(); ++anchor) {
+      if (offsets[anchor + 1] > offsets[anchor]) anchors.push_back(anchor);
+    }
+    return anchors;
+  }
   /// Appends the stencil of the next anchor.
   void push_back(std::span<const int> stencil) {
     nodes.insert(nodes.end(), stencil.begin(), stencil.end());

@@ -13,6 +13,8 @@
 #include <nlohmann/json.hpp>
 #include <umfpack.h>
 
+#include "methods/core/simd/path.hpp"
+
 namespace strongpoint {
 namespace {
 
@@ -92,6 +94,7 @@ Provenance provenance_of(const Study& study, int argc, const char* const* argv, 
           {"nlohmann_json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR,
                                         NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
           {"cpu", cpu_model()},
+          {"simd", std::string(name_of(simd_path()))},
           {"cores", fmt::format("{}", std::thread::hardware_concurrency())},
           {"threads", fmt::format("{}", threads)},
           {"clock", clock_name(threads)},
