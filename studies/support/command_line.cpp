@@ -86,7 +86,9 @@ AxisTexts axis_texts(const Given& given, const Study& study, const Options& extr
   texts.mesh_cloud = given.value("--cloud", "file");
   texts.form = axis("--form", defaults.form);
   texts.solver = axis("--solver", defaults.solver);
-  texts.levels = given.value("--levels", given.smoke ? defaults.smoke_levels : defaults.levels);
+  const std::string levels =
+      study.default_levels && !given.smoke ? study.default_levels(extra) : defaults.levels;
+  texts.levels = given.value("--levels", given.smoke ? defaults.smoke_levels : levels);
   texts.stencil = stencil_text(given, study, extra);
   return texts;
 }
@@ -118,7 +120,7 @@ void check_extra(const Study& study, const Given& given, const Options& extra) {
 
 /// An option of a study program with its help.
 struct OptionHelp {
-  std::string name, placeholder, help;
+  std::string name, placeholder, help;  ///< a flag has no placeholder
 };
 
 std::vector<OptionHelp> option_helps(const Study& study) {
@@ -148,6 +150,10 @@ std::vector<OptionHelp> option_helps(const Study& study) {
        study.mapped ? "keep the finished cases of this table, run the rest; --vtk writes the latter"
                     : "keep the finished cases of this table, run the rest"}};
   for (const OptionDoc& option : study.extra_options) {
+    if (option.default_value == flag_off) {
+      helps.push_back({"--" + option.key, "", option.doc});
+      continue;
+    }
     const std::string standard = option.default_value.empty() ? "none" : option.default_value;
     helps.push_back({"--" + option.key, "VALUE", option.doc + "; default " + standard});
   }
@@ -167,6 +173,11 @@ std::vector<OptionHelp> option_helps(const Study& study) {
 void parse(CLI::App& app, const std::vector<OptionHelp>& helps, int argc, const char* const* argv,
            Given& given) {
   for (const OptionHelp& help : helps) {
+    if (help.placeholder.empty()) {
+      app.add_flag_callback(
+          help.name, [&given, name = help.name] { given.values[name] = flag_on; }, help.help);
+      continue;
+    }
     app.add_option_function<std::vector<std::string>>(
            help.name,
            [&given, name = help.name](const std::vector<std::string>& values) {

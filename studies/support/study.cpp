@@ -54,6 +54,7 @@ class GridRun {
   void start();
   void keep_rows_left_out(int count) const;
   void run_cases();
+  bool waits_for_the_end() const { return study_.conclude && is_stream(line_.csv); }
   std::vector<Row> run_case(const PlannedCase& planned);
   void finish();
   void write_json();
@@ -165,6 +166,7 @@ void GridRun::run_cases() {
     const std::lock_guard lock(mutex_);
     if (!kept) cases_[i] = std::move(rows);
     if (study_.rated) fill_rates(cases_, i, study_.unrated);
+    if (waits_for_the_end()) continue;
     if (!kept || is_stream(line_.csv)) table_.append(text_of(cases_[i]));
   }
 }
@@ -182,12 +184,15 @@ void GridRun::write_json() {
 /// Writes what takes the whole table: its order, the JSON document, the readable form. A JSON
 /// document that could not be written leaves the rows to be seen at least.
 void GridRun::finish() {
-  std::string whole = header();
-  for (const std::vector<Row>& rows : cases_) whole += text_of(rows);
-  table_.finish(whole);
+  if (study_.conclude) study_.conclude(cases_);
+  std::string rows_text;
+  for (const std::vector<Row>& rows : cases_) rows_text += text_of(rows);
+  if (waits_for_the_end()) table_.append(rows_text);
+  table_.finish(header() + rows_text);
   write_json();
   if (line_.prints_readable && (line_.json != "-" || json_failed_)) {
     append_to("-", readable_table(cases_, study_));
+    if (study_.appendix) append_to("-", study_.appendix(cases_));
   }
 }
 

@@ -11,6 +11,7 @@
 namespace strongpoint {
 
 struct CaseMonitor;
+struct Row;
 
 /// One point of a study's case grid, in canonical specs.
 struct CaseKey {
@@ -75,6 +76,10 @@ struct AxisDefaults {
   std::string smoke_method;  ///< empty: as `method`
 };
 
+/// The default of an option of a study that is a flag: it is `flag_on` when given, without a value.
+inline constexpr const char* flag_off = "off";
+inline constexpr const char* flag_on = "on";
+
 /// A study program: what it is called, what its axes default to, how it runs one case.
 struct Study {
   std::string name, summary;
@@ -87,13 +92,15 @@ struct Study {
   /// Extra columns that tell rows of one quantity apart in the readable table, as in `wave=0.1`;
   /// empty: every one that holds a word.
   std::vector<std::string> variant_columns;
-  std::vector<OptionDoc> extra_options;  ///< `--key VALUE` options of this study
+  std::vector<OptionDoc> extra_options;  ///< `--key VALUE` options of this study, and flags
   /// Reads the study's own options, to throw UsageError for a value that does not fit before any
   /// file is touched; empty: any value fits.
   std::function<void(const Options& extra)> check_options;
   /// Prepares what all cases need, as directories, before any of them is planned. Throws UsageError
   /// that names its option; empty: nothing.
   std::function<void(const Options& extra, const RunOptions& run)> prepare;
+  /// The levels when `--levels` is not given and this is no smoke run; empty: those of `defaults`.
+  std::function<std::string(const Options& extra)> default_levels;
   /// The stencil axis when `--stencil` is not given, in specs made from the study's own options,
   /// which are all refused beside `--stencil`. Without it every method is run with its default.
   std::function<std::string(const Options& extra)> default_stencils;
@@ -106,6 +113,11 @@ struct Study {
       keeps;
   /// Runs a case. Throws CaseError (a failed row) or SkipCase (a skipped one).
   std::function<CaseResult(const CaseKey&, const RunOptions&, const Options& extra)> run;
+  /// Fills extra columns that take the whole table, in the rows of all cases that have run; empty:
+  /// there are none. A table on a stream is then written at the end.
+  std::function<void(std::vector<std::vector<Row>>& cases)> conclude;
+  /// Text that follows the readable table; empty: none.
+  std::function<std::string(const std::vector<std::vector<Row>>& cases)> appendix;
 };
 
 /// The whole of a study program: parses the command line, runs the case grid, writes the tables.
