@@ -6,6 +6,7 @@
 #include <benchmark/benchmark.h>
 
 #include "methods/core/error.hpp"
+#include "methods/core/simd/path.hpp"
 
 namespace strongpoint {
 
@@ -35,6 +36,7 @@ inline void report_per_node(benchmark::State& state, double nodes, const std::st
 inline int run_registered(int argc, char** argv, const bool& failed) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::AddCustomContext("simd", std::string(name_of(simd_path())));
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return failed ? 1 : 0;

@@ -81,6 +81,8 @@ class Tables(StudyTest):
         for member in ("compiler", "compiler_flags", "build_type", "eigen", "fmt", "nanoflann",
                        "umfpack", "cpu", "simd", "cores", "threads", "clock", "date"):
             self.assertIn(member, provenance)
+        for figure in ("copy_gigabytes_per_second", "umfpack_laplacian_100x100_seconds"):
+            self.assertGreater(float(provenance[figure]), 0)
         self.assertRegex(provenance["date"], r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ$")
 
     def test_standard_output_can_take_the_json(self):

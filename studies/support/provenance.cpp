@@ -14,6 +14,7 @@
 #include <umfpack.h>
 
 #include "methods/core/simd/path.hpp"
+#include "studies/support/calibration.hpp"
 
 namespace strongpoint {
 namespace {
@@ -99,6 +100,14 @@ Provenance provenance_of(const Study& study, int argc, const char* const* argv, 
           {"threads", fmt::format("{}", threads)},
           {"clock", clock_name(threads)},
           {"date", utc_now()}};
+}
+
+void add_calibration(Provenance& provenance) {
+  const Calibration figures = calibrate();
+  provenance.emplace_back("copy_gigabytes_per_second",
+                          fmt::format("{:.1f}", figures.copy_gigabytes_per_second));
+  provenance.emplace_back("umfpack_laplacian_100x100_seconds",
+                          fmt::format("{:.4f}", figures.factor_seconds));
 }
 
 std::string json_text(const Provenance& provenance, const std::vector<std::vector<Row>>& cases,

@@ -20,6 +20,9 @@ using Provenance = std::vector<std::pair<std::string, std::string>>;
 /// it.
 Provenance provenance_of(const Study& study, int argc, const char* const* argv, int threads);
 
+/// Adds what the machine does just now with two well-known pieces of work, for tables of times.
+void add_calibration(Provenance& provenance);
+
 /// The table as a JSON document: an object with `provenance`, an object, and `rows`, a list of
 /// objects with one member per column, numbers as numbers and empty ones as null.
 std::string json_text(const Provenance& provenance, const std::vector<std::vector<Row>>& cases,

@@ -173,6 +173,7 @@ void GridRun::run_cases() {
 
 void GridRun::write_json() {
   if (line_.json.empty()) return;
+  if (study_.timed) add_calibration(provenance_);
   try {
     write_whole(line_.json, json_text(provenance_, cases_, study_));
   } catch (const WriteError& error) {
