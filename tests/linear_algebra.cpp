@@ -139,7 +139,7 @@ TEST(Assembly, WritesTheSumOfTermsWhateverTheirPoints) {
   write.equals(7);
   const LinearSystem system = assemble(equations, weights, {.count = 2}, 1);
   // Row 0: columns 0 and 1 hold 5*2+20 = 30 and 5*1+10 = 15, scaled by 30.
-  EXPECT_EQ(system.columns, (std::vector<std::int64_t>{0, 1, 0, 1}));
+  EXPECT_EQ(system.columns, (LargeArray<std::int64_t>{0, 1, 0, 1}));
   EXPECT_DOUBLE_EQ(system.values[0], 1);
   EXPECT_DOUBLE_EQ(system.values[1], 0.5);
   EXPECT_DOUBLE_EQ(system.right_hand_side[0], 1);

@@ -225,9 +225,9 @@ TEST(NeighboursTies, AreKeptWithinTheToleranceAndCutByNodeId) {
   const Points<1> origin = Points<1>::Zero(1, 1);
   for (const std::string& engine : search_engines()) {
     const auto search = make_search<1>(engine, nodes);
-    EXPECT_EQ(search->nearest(origin, 2, Ties::keep).nodes, (std::vector<int>{3, 2, 4, 1}));
-    EXPECT_EQ(search->nearest(origin, 2, Ties::cut).nodes, (std::vector<int>{3, 2}));
-    EXPECT_EQ(search->nearest(origin, 4, Ties::cut).nodes, (std::vector<int>{3, 2, 4, 1}));
+    EXPECT_EQ(search->nearest(origin, 2, Ties::keep).nodes, (LargeArray<int>{3, 2, 4, 1}));
+    EXPECT_EQ(search->nearest(origin, 2, Ties::cut).nodes, (LargeArray<int>{3, 2}));
+    EXPECT_EQ(search->nearest(origin, 4, Ties::cut).nodes, (LargeArray<int>{3, 2, 4, 1}));
   }
 }
 

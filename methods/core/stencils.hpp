@@ -4,13 +4,15 @@
 #include <span>
 #include <vector>
 
+#include "methods/core/large_array.hpp"
+
 namespace strongpoint {
 
 /// The nodes used at each anchor, in compressed rows. Each stencil is sorted by (distance, node
 /// id); an anchor that needs no derivative has an empty one.
 struct Stencils {
   std::vector<std::int64_t> offsets{0};  ///< (anchors + 1)
-  std::vector<int> nodes;                ///< (entries)
+  LargeArray<int> nodes;                 ///< (entries)
 
   int size() const { return static_cast<int>(offsets.size()) - 1; }
   std::span<const int> operator[](int anchor) const {

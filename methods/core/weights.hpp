@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "methods/core/large_array.hpp"
+
 namespace strongpoint {
 
 /// Derivative weights of all evaluation points: one CSR pattern (points x nodes), `per_entry`
@@ -13,8 +15,8 @@ namespace strongpoint {
 struct Weights {
   int per_entry = 0;                     ///< m, derivatives per entry
   std::vector<std::int64_t> offsets{0};  ///< (points + 1)
-  std::vector<int> columns;              ///< (entries) node ids, in stencil order
-  std::vector<double> values;            ///< (m * entries), the m values of an entry side by side
+  LargeArray<int> columns;               ///< (entries) node ids, in stencil order
+  LargeArray<double> values;             ///< (m * entries), the m values of an entry side by side
 
   int size() const { return static_cast<int>(offsets.size()) - 1; }
   /// Node ids of one point's row; empty where no derivative was wanted.

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "methods/core/large_array.hpp"
 #include "methods/core/options.hpp"
 
 namespace strongpoint {
@@ -15,8 +16,8 @@ namespace strongpoint {
 /// than unknowns and is solved in the least-squares sense.
 struct LinearSystem {
   std::vector<std::int64_t> offsets{0};  ///< (rows + 1)
-  std::vector<std::int64_t> columns;     ///< (entries)
-  std::vector<double> values;            ///< (entries)
+  LargeArray<std::int64_t> columns;      ///< (entries)
+  LargeArray<double> values;             ///< (entries)
   Eigen::VectorXd right_hand_side;       ///< (rows)
   std::vector<double> row_scales;        ///< (rows) what each equation was multiplied by
   int fields = 1;                        ///< unknown = node * fields + field
