@@ -82,8 +82,7 @@ double misfit(const std::string& spec, const std::string& layout, int level, con
     EXPECT_EQ(list.size(), Dim);
     for (int row = 0; row < list.size(); ++row) {
       double sum = -list.right_hand_sides[row];
-      for (auto t = list.offsets[row]; t < list.offsets[row + 1]; ++t) {
-        const Term& term = list.terms[t];
+      for (const Term& term : list.row(row)) {
         sum += term.coefficient * u[term.field].derivative(all[term.derivative]);
       }
       worst = std::max(worst, std::abs(sum));
@@ -181,7 +180,7 @@ TEST(Cook, TakesBothTractionsOfTheLoadedSideAtItsCorners) {
     const Derivatives<2> all = Derivatives<2>::between_orders(0, 2);
     EquationWriter<2> write(list, all);
     problem.equations(node_of(cloud, node_at<2>(cloud, corner)), write);
-    EXPECT_EQ(list.right_hand_sides, (std::vector<double>{0, 1.0 / 16}));
+    EXPECT_EQ(list.right_hand_sides, (LargeArray<double>{0, 1.0 / 16}));
   }
 }
 

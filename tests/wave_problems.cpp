@@ -49,7 +49,7 @@ double misfit(const TransientProblem<2>& problem, const std::string& layout, int
     for (int row = 0; row < list.size(); ++row) {
       const double acceleration = u[row].derivative({0, 0, 2});
       double sum = -problem.load(time) * list.right_hand_sides[row];
-      sum -= list.inertia[row] * acceleration;
+      sum -= list.inertia_of(row) * acceleration;
       for (const Term& term : list.row(row)) {
         const MultiIndex<2> alpha =
             term.derivative == value_only ? MultiIndex<2>{} : all[term.derivative];

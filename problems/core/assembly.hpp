@@ -17,4 +17,11 @@ namespace strongpoint {
 LinearSystem assemble(const EquationList& equations, const Weights& weights,
                       const NodeUnknowns& unknowns, int fields);
 
+/// Puts other equations, or other weights, with the same pattern into a system made by `assemble`:
+/// new values, right-hand sides and scales, the columns stay. Gives the same bits as `assemble`.
+/// Throws as that does, and CaseError when a row has other columns or their number is another, the
+/// system then being good for nothing.
+void reassemble(const EquationList& equations, const Weights& weights, const NodeUnknowns& unknowns,
+                LinearSystem& system);
+
 }  // namespace strongpoint

@@ -185,7 +185,7 @@ void write_interface(const FluxProblem<Dim>& problem, const PointCloud<Dim>& clo
       write_own.at(node);
       problem.governing(node_of(cloud, node).place(), write_own);
       write.add_row(own.row(f));
-      write.equals(own.right_hand_sides[f], own.inertia[f]);
+      write.equals(own.right_hand_sides[f], own.inertia_of(f));
     } else if (node == nodes.back()) {
       junction.write_condition(f, write);
     } else {

@@ -44,10 +44,16 @@ struct Node {
   }
 };
 
+/// A node of a cloud, whose spacing is given by who asks for many.
+template <int Dim>
+Node<Dim> node_of(const PointCloud<Dim>& cloud, int id, double spacing) {
+  return {id, cloud.nodes.col(id), cloud.marks_of(id), cloud.patch_of(id), spacing};
+}
+
 /// A node of a cloud.
 template <int Dim>
 Node<Dim> node_of(const PointCloud<Dim>& cloud, int id) {
-  return {id, cloud.nodes.col(id), cloud.marks_of(id), cloud.patch_of(id), cloud.spacing()};
+  return node_of(cloud, id, cloud.spacing());
 }
 
 /// What every problem has: a domain.

@@ -15,13 +15,13 @@ namespace strongpoint {
 /// A sparse system in compressed rows; columns ascend within a row. It is square, or has more rows
 /// than unknowns and is solved in the least-squares sense.
 struct LinearSystem {
-  std::vector<std::int64_t> offsets{0};  ///< (rows + 1)
-  LargeArray<std::int64_t> columns;      ///< (entries)
-  LargeArray<double> values;             ///< (entries)
-  Eigen::VectorXd right_hand_side;       ///< (rows)
-  std::vector<double> row_scales;        ///< (rows) what each equation was multiplied by
-  int fields = 1;                        ///< unknown = node * fields + field
-  std::int64_t width = 0;                ///< number of unknowns; 0: as many as rows
+  LargeArray<std::int64_t> offsets{0};  ///< (rows + 1)
+  LargeArray<std::int64_t> columns;     ///< (entries)
+  LargeArray<double> values;            ///< (entries)
+  Eigen::VectorXd right_hand_side;      ///< (rows)
+  LargeArray<double> row_scales;        ///< (rows) what each equation was multiplied by
+  int fields = 1;                       ///< unknown = node * fields + field
+  std::int64_t width = 0;               ///< number of unknowns; 0: as many as rows
   std::vector<int> order;  ///< (nodes) in which incomplete factors eliminate them; empty: as is
 
   std::int64_t rows() const { return static_cast<std::int64_t>(offsets.size()) - 1; }

@@ -26,7 +26,7 @@ ExactSymbol<Dim>::ExactSymbol(const SteadyProblem<Dim>& problem, const Place<Dim
   problem.governing(place, write);
   std::map<std::pair<MultiIndex<Dim>, std::pair<int, int>>, double> sums;
   for (int f = 0; f < fields_; ++f) {
-    if (list.inertia[f] == 0 || fields_ > most_fields) {
+    if (list.inertia_of(f) == 0 || fields_ > most_fields) {
       throw SkipCase(fmt::format(
           "equation {} has no inertia: the equations are not those of waves in displacements", f));
     }
@@ -39,7 +39,7 @@ ExactSymbol<Dim>::ExactSymbol(const SteadyProblem<Dim>& problem, const Place<Dim
                         "method's could be compared",
                         name_of<Dim>(alpha)));
       }
-      const double coefficient = term.coefficient / list.inertia[f];
+      const double coefficient = term.coefficient / list.inertia_of(f);
       summands_.push_back({f, term.field, alpha, coefficient});
       sums[{alpha, {f, term.field}}] += coefficient;
     }
@@ -100,7 +100,7 @@ NodeSymbol<Dim>::NodeSymbol(const EquationList& equations, int first_row, int fi
     : fields_(fields) {
   Entries entries{fields};
   for (int f = 0; f < fields; ++f) {
-    const double inertia = equations.inertia[first_row + f];
+    const double inertia = equations.inertia_of(first_row + f);
     if (inertia == 0) {
       throw SkipCase(
           fmt::format("equation {} of node {} has no inertia, so that it moves no wave", f, node));

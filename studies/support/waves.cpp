@@ -66,8 +66,10 @@ Waves<Dim> make_waves(const TransientProblem<Dim>& problem, const CaseKey& key,
     values = value_rows<Dim>(scene, fields);
   });
   clock.time(times.solve, [&] {
-    waves.motion = std::make_unique<CondensedMotion>(waves.system, equations.inertia,
-                                                     values ? &*values : nullptr);
+    std::vector<double> inertia(equations.size());
+    for (int row = 0; row < equations.size(); ++row) inertia[row] = equations.inertia_of(row);
+    waves.motion =
+        std::make_unique<CondensedMotion>(waves.system, inertia, values ? &*values : nullptr);
   });
   return waves;
 }

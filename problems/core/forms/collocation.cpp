@@ -19,12 +19,6 @@ enum class Boundary {
   combined  ///< added to alpha h times the differential equations
 };
 
-/// True when the equations at a node read the value alone, so that no stencil is needed.
-template <int Dim>
-bool reads_value_only(const SteadyProblem<Dim>& problem, std::span<const BoundaryMark<Dim>> marks) {
-  return problem.derivatives(marks).highest_order() == 0;
-}
-
 /// Writes the equations of all nodes, and of their ghosts.
 template <int Dim>
 class CollocationRows {
@@ -42,8 +36,10 @@ class CollocationRows {
     EquationList list;
     EquationWriter<Dim> write(list, derivatives);
     Scratch scratch(derivatives);
+    list.reserve((cloud_.size() + ghosts_.size()) * fields_);
+    const double spacing = cloud_.spacing();
     for (int i = 0; i < cloud_.size(); ++i) {
-      const Node<Dim> node = node_of(cloud_, i);
+      const Node<Dim> node = node_of(cloud_, i, spacing);
       write.at(i);
       if (!cloud_.twins_of(i).empty()) {
         write_interface(*flux_problem(problem_), cloud_, i, derivatives, write);
@@ -92,7 +88,7 @@ class CollocationRows {
 
   static void copy_row(const Rows& rows, int row, EquationWriter<Dim>& write) {
     write.add_row(rows.list.row(row));
-    write.equals(rows.list.right_hand_sides[row], rows.list.inertia[row]);
+    write.equals(rows.list.right_hand_sides[row], rows.list.inertia_of(row));
   }
 
   /// True when a mirrored plane through the node reverses a field, which is zero there.
@@ -138,7 +134,7 @@ class CollocationRows {
       const double factor = -alpha_ * ghosts_.spacing[node.id];
       write.add_row(scratch.governing.list.row(f), factor);
       write.equals(right_hand_side + factor * scratch.governing.list.right_hand_sides[f],
-                   factor * scratch.governing.list.inertia[f]);
+                   factor * scratch.governing.list.inertia_of(f));
     }
   }
 
@@ -243,8 +239,12 @@ class Collocation final : public Form<Dim> {
     Derivatives<Dim> all;
     if (!method.promises().interpolates) all.merge({MultiIndex<Dim>{}});
     if (boundary_ != Boundary::plain) all.merge(without_values(problem.derivatives({})));
+    bool has_inner = false;
     for (int i = 0; i < cloud.size(); ++i) {
-      all.merge(without_values(problem.derivatives(cloud.marks_of(i))));
+      const std::span<const BoundaryMark<Dim>> marks = cloud.marks_of(i);
+      if (marks.empty() && has_inner) continue;  // the same for all
+      has_inner = has_inner || marks.empty();
+      all.merge(without_values(problem.derivatives(marks)));
     }
     if (!cloud.parts.empty()) {
       all.merge(without_values(interface_derivatives(interface_problem(problem))));
@@ -261,10 +261,12 @@ class Collocation final : public Form<Dim> {
                           const Method<Dim>& method, const std::vector<SymmetryPlane>& planes,
                           Sites<Dim>& sites) {
     if (!method.promises().interpolates || problem.measured_derivatives().size() > 0) return;
+    const bool wants_inner = problem.derivatives({}).highest_order() > 0;
     for (int i = 0; i < cloud.size(); ++i) {
       const std::span<const BoundaryMark<Dim>> marks = cloud.marks_of(i);
+      if (marks.empty() && wants_inner) continue;
       if (lies_on_planes_only<Dim>(marks, planes) || !cloud.twins_of(i).empty()) continue;
-      if (reads_value_only(problem, marks)) sites.wanted[i] = 0;
+      if (problem.derivatives(marks).highest_order() == 0) sites.wanted[i] = 0;
     }
   }
 };

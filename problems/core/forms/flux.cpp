@@ -96,7 +96,7 @@ class CellBalances {
           write_whole.at(i);
           problem_.governing(node.place(), write_whole);
           write.add_row(whole.row(f));
-          write.equals(whole.right_hand_sides[f], whole.inertia[f]);
+          write.equals(whole.right_hand_sides[f], whole.inertia_of(f));
         } else {
           write_balance(node, f, write);
         }
