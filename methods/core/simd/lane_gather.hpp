@@ -5,70 +5,90 @@
 
 namespace strongpoint::STRONGPOINT_SIMD_PATH {
 
-/// The stencils of a group of anchors, one a lane, in coordinates scaled by their radii.
+/// The stencils of a group of anchors, one a lane, in coordinates scaled by their radii. A stencil
+/// smaller than the table's size is padded with copies of its anchor.
 struct LaneStencils {
   Pack* z;              ///< (Dim, n) positions relative to the anchor over R, node after node
-  Pack* rho;            ///< (n) distances over R, ascending
+  Pack* rho;            ///< (n) distances over R, ascending; 1 for padding
   Pack radius;          ///< R, the largest distance; 1 in lanes without any
+  Pack size;            ///< nodes in each lane's stencil
   int anchors[lanes];   ///< the last one repeated where the group is not full
   unsigned coincident;  ///< bits of the lanes in which nodes are closer than 1e-10 R, or R is 0
 };
 
-/// Bits of the lanes in which two nodes coincide.
+/// Bits of the lanes in which two nodes coincide, given the squares of their distances over R.
 template <int Dim>
-unsigned coincident_lanes(const Pack* z, const Pack* rho, int size) {
+unsigned coincident_lanes(const LaneStencils& group, const Pack* squares, int size) {
   const Pack tolerance = all(1e-10);  // in units of R, as for stencils one by one
+  // As rho_i + rho_j <= 2, squares farther apart than this belong to distances that differ by more.
+  const Pack apart = all(2e-10);
   unsigned found = 0;
   for (int i = 0; i + 1 < size; ++i) {
     for (int j = i + 1; j < size; ++j) {
-      if (less(tolerance, rho[j] - rho[i]) == every_lane) break;
+      const unsigned real = less(all(j), group.size);
+      const unsigned near = real & ~less(apart, squares[j] - squares[i]);
+      if (near == 0) break;
       Pack largest = all(0);
-      for (int c = 0; c < Dim; ++c) largest = max(largest, abs(z[j * Dim + c] - z[i * Dim + c]));
-      found |= less(largest, tolerance);
+      for (int c = 0; c < Dim; ++c) {
+        largest = max(largest, abs(group.z[j * Dim + c] - group.z[i * Dim + c]));
+      }
+      found |= near & less(largest, tolerance);
     }
   }
   return found;
+}
+
+/// Gathers the stencils of anchors `first` and following of a table as `gather_lanes` does, but
+/// leaves the squares of the distances in `rho`.
+template <int Dim>
+void gather_squares(const StencilTable& table, int first, LaneStencils& group) {
+  const int* ids[lanes];
+  const double* node[lanes];
+  double count[lanes];
+  Pack origin[Dim];
+  for (int lane = 0; lane < lanes; ++lane) {
+    const int place = first + lane < table.count ? first + lane : table.count - 1;
+    const int anchor = table.chosen[place];
+    group.anchors[lane] = anchor;
+    ids[lane] = table.ids + table.offsets[anchor];
+    count[lane] = static_cast<double>(table.offsets[anchor + 1] - table.offsets[anchor]);
+    node[lane] = table.anchors + static_cast<long>(anchor) * Dim;
+  }
+  group.size = load(count);
+  load_nodes<Dim>(node, origin);
+  Pack largest = all(0);
+  for (int j = 0; j < table.size; ++j) {
+    for (int lane = 0; lane < lanes; ++lane) {
+      node[lane] = j < static_cast<int>(count[lane])
+                       ? table.nodes + static_cast<long>(ids[lane][j]) * Dim
+                       : table.anchors + static_cast<long>(group.anchors[lane]) * Dim;
+    }
+    Pack* const z = group.z + static_cast<long>(j) * Dim;
+    load_nodes<Dim>(node, z);
+    Pack square = all(0);
+    for (int c = 0; c < Dim; ++c) {
+      z[c] = z[c] - origin[c];
+      square = square + z[c] * z[c];
+    }
+    group.rho[j] = square;
+    largest = max(largest, square);
+  }
+  const unsigned proper = less(all(0), largest);
+  group.radius = choose(proper, sqrt(largest), all(1));
+  const Pack inverse = all(1) / group.radius;
+  for (int i = 0; i < table.size * Dim; ++i) group.z[i] = group.z[i] * inverse;
+  for (int j = 0; j < table.size; ++j) {
+    group.rho[j] = choose(less(all(j), group.size), group.rho[j] * inverse * inverse, all(1));
+  }
+  group.coincident = (every_lane & ~proper) | coincident_lanes<Dim>(group, group.rho, table.size);
 }
 
 /// Gathers the stencils of anchors `first` and following of a table; `lanes` of them or what is
 /// left. `group.z` and `group.rho` point to room for n nodes.
 template <int Dim>
 void gather_lanes(const StencilTable& table, int first, LaneStencils& group) {
-  const int* ids[lanes];
-  Pack origin[Dim];
-  for (int lane = 0; lane < lanes; ++lane) {
-    const int place = first + lane < table.count ? first + lane : table.count - 1;
-    group.anchors[lane] = table.chosen[place];
-    ids[lane] = table.ids + table.offsets[group.anchors[lane]];
-  }
-  double buffer[Dim][lanes];
-  for (int c = 0; c < Dim; ++c) {
-    for (int lane = 0; lane < lanes; ++lane) {
-      buffer[c][lane] = table.anchors[static_cast<long>(group.anchors[lane]) * Dim + c];
-    }
-    origin[c] = load(buffer[c]);
-  }
-  Pack largest = all(0);
-  for (int j = 0; j < table.size; ++j) {
-    for (int lane = 0; lane < lanes; ++lane) {
-      const double* const node = table.nodes + static_cast<long>(ids[lane][j]) * Dim;
-      for (int c = 0; c < Dim; ++c) buffer[c][lane] = node[c];
-    }
-    Pack square = all(0);
-    for (int c = 0; c < Dim; ++c) {
-      const Pack offset = load(buffer[c]) - origin[c];
-      group.z[j * Dim + c] = offset;
-      square = square + offset * offset;
-    }
-    group.rho[j] = sqrt(square);
-    largest = max(largest, group.rho[j]);
-  }
-  const unsigned proper = less(all(0), largest);
-  group.radius = choose(proper, largest, all(1));
-  const Pack inverse = all(1) / group.radius;
-  for (int i = 0; i < table.size * Dim; ++i) group.z[i] = group.z[i] * inverse;
-  for (int j = 0; j < table.size; ++j) group.rho[j] = group.rho[j] * inverse;
-  group.coincident = (every_lane & ~proper) | coincident_lanes<Dim>(group.z, group.rho, table.size);
+  gather_squares<Dim>(table, first, group);
+  for (int j = 0; j < table.size; ++j) group.rho[j] = sqrt(group.rho[j]);
 }
 
 }  // namespace strongpoint::STRONGPOINT_SIMD_PATH

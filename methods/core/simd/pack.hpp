@@ -39,6 +39,52 @@ inline Pack choose(unsigned bits, Pack a, Pack b) {
   return _mm512_mask_blend_pd(static_cast<__mmask8>(bits), b, a);
 }
 
+/// Nodes of all lanes side by side: `to[c]` gets coordinate c of node[0], node[1], ...
+template <int Dim>
+void load_nodes(const double* const* node, Pack* to) {
+  // Masked broadcasts from memory: shuffles are scarcer than loads.
+  if constexpr (Dim >= 2) {
+    Pack even = _mm512_castpd128_pd512(_mm_loadu_pd(node[0]));
+    even = _mm512_mask_broadcast_f64x2(even, 0x0C, _mm_loadu_pd(node[2]));
+    even = _mm512_mask_broadcast_f64x2(even, 0x30, _mm_loadu_pd(node[4]));
+    even = _mm512_mask_broadcast_f64x2(even, 0xC0, _mm_loadu_pd(node[6]));
+    Pack odd = _mm512_castpd128_pd512(_mm_loadu_pd(node[1]));
+    odd = _mm512_mask_broadcast_f64x2(odd, 0x0C, _mm_loadu_pd(node[3]));
+    odd = _mm512_mask_broadcast_f64x2(odd, 0x30, _mm_loadu_pd(node[5]));
+    odd = _mm512_mask_broadcast_f64x2(odd, 0xC0, _mm_loadu_pd(node[7]));
+    to[0] = _mm512_unpacklo_pd(even, odd);
+    to[1] = _mm512_unpackhi_pd(even, odd);
+  }
+  if constexpr (Dim != 2) {
+    constexpr int c = Dim - 1;
+    Pack last = all(node[0][c]);
+    for (int lane = 1; lane < lanes; ++lane) {
+      last = _mm512_mask_broadcastsd_pd(last, static_cast<__mmask8>(1U << lane),
+                                        _mm_load_sd(node[lane] + c));
+    }
+    to[c] = last;
+  }
+}
+
+/// Eight numbers of each of eight packs become eight numbers of each lane.
+inline void transpose(const Pack* from, Pack* to) {
+  for (int odd = 0; odd < 2; ++odd) {
+    Pack pairs[4];  // of lanes odd, odd + 2, odd + 4, odd + 6
+    for (int i = 0; i < 4; ++i) {
+      pairs[i] = odd == 0 ? _mm512_unpacklo_pd(from[2 * i], from[2 * i + 1])
+                          : _mm512_unpackhi_pd(from[2 * i], from[2 * i + 1]);
+    }
+    const Pack outer = _mm512_shuffle_f64x2(pairs[0], pairs[1], 0x88);
+    const Pack inner = _mm512_shuffle_f64x2(pairs[0], pairs[1], 0xDD);
+    const Pack outer2 = _mm512_shuffle_f64x2(pairs[2], pairs[3], 0x88);
+    const Pack inner2 = _mm512_shuffle_f64x2(pairs[2], pairs[3], 0xDD);
+    to[odd] = _mm512_shuffle_f64x2(outer, outer2, 0x88);
+    to[odd + 2] = _mm512_shuffle_f64x2(inner, inner2, 0x88);
+    to[odd + 4] = _mm512_shuffle_f64x2(outer, outer2, 0xDD);
+    to[odd + 6] = _mm512_shuffle_f64x2(inner, inner2, 0xDD);
+  }
+}
+
 #elif defined(__AVX2__)
 
 inline constexpr int lanes = 4;
@@ -60,6 +106,33 @@ inline Pack choose(unsigned bits, Pack a, Pack b) {
   return _mm256_blendv_pd(b, a, _mm256_castsi256_pd(_mm256_cmpeq_epi64(chosen, lane_bits)));
 }
 
+/// Nodes of all lanes side by side: `to[c]` gets coordinate c of node[0], node[1], ...
+template <int Dim>
+void load_nodes(const double* const* node, Pack* to) {
+  if constexpr (Dim >= 2) {
+    const Pack even = _mm256_set_m128d(_mm_loadu_pd(node[2]), _mm_loadu_pd(node[0]));
+    const Pack odd = _mm256_set_m128d(_mm_loadu_pd(node[3]), _mm_loadu_pd(node[1]));
+    to[0] = _mm256_unpacklo_pd(even, odd);
+    to[1] = _mm256_unpackhi_pd(even, odd);
+  }
+  if constexpr (Dim != 2) {
+    constexpr int c = Dim - 1;
+    to[c] = _mm256_set_pd(node[3][c], node[2][c], node[1][c], node[0][c]);
+  }
+}
+
+/// Four numbers of each of four packs become four numbers of each lane.
+inline void transpose(const Pack* from, Pack* to) {
+  const Pack low = _mm256_unpacklo_pd(from[0], from[1]);
+  const Pack high = _mm256_unpackhi_pd(from[0], from[1]);
+  const Pack low2 = _mm256_unpacklo_pd(from[2], from[3]);
+  const Pack high2 = _mm256_unpackhi_pd(from[2], from[3]);
+  to[0] = _mm256_permute2f128_pd(low, low2, 0x20);
+  to[1] = _mm256_permute2f128_pd(high, high2, 0x20);
+  to[2] = _mm256_permute2f128_pd(low, low2, 0x31);
+  to[3] = _mm256_permute2f128_pd(high, high2, 0x31);
+}
+
 #else
 
 inline constexpr int lanes = 1;
@@ -74,6 +147,11 @@ inline Pack min(Pack a, Pack b) { return a < b ? a : b; }
 inline Pack max(Pack a, Pack b) { return a > b ? a : b; }
 inline unsigned less(Pack a, Pack b) { return a < b ? 1 : 0; }
 inline Pack choose(unsigned bits, Pack a, Pack b) { return bits != 0 ? a : b; }
+template <int Dim>
+void load_nodes(const double* const* node, Pack* to) {
+  for (int c = 0; c < Dim; ++c) to[c] = node[0][c];
+}
+inline void transpose(const Pack* from, Pack* to) { *to = *from; }
 
 #endif
 

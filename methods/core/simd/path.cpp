@@ -58,6 +58,18 @@ std::string_view name_of(SimdPath path) {
   return "scalar";
 }
 
+int lanes_of(SimdPath path) {
+  switch (path) {
+    case SimdPath::avx512:
+      return 8;
+    case SimdPath::avx2:
+      return 4;
+    case SimdPath::scalar:
+      break;
+  }
+  return 1;
+}
+
 const std::vector<SimdPath>& simd_paths() {
   static const std::vector<SimdPath> paths = paths_here();
   return paths;

@@ -25,6 +25,9 @@ enum class SimdPath {
 /// "scalar", "avx2", "avx512".
 std::string_view name_of(SimdPath path);
 
+/// Numbers that a path treats side by side: 1, 4, 8.
+int lanes_of(SimdPath path);
+
 /// The paths that this build and this processor have, the fastest last.
 const std::vector<SimdPath>& simd_paths();
 

@@ -4,7 +4,7 @@
 
 namespace strongpoint {
 
-/// Stencils of one size as kernels read them: pointers into sites and stencils.
+/// Stencils as kernels read them: pointers into sites and stencils.
 struct StencilTable {
   const double* nodes;          ///< (Dim, N) coordinates, node after node
   const double* anchors;        ///< (Dim, A) likewise
@@ -12,7 +12,7 @@ struct StencilTable {
   const int* ids;               ///< (entries) node ids, by distance within a stencil
   const int* chosen;            ///< (count) the anchors to be treated
   int count;                    ///< how many
-  int size;                     ///< n, nodes in each of their stencils
+  int size;                     ///< n, nodes in the largest of their stencils
 };
 
 }  // namespace strongpoint
