@@ -19,7 +19,8 @@ constexpr double pivot_tolerance = 1e-14;
 
 template <int Dim>
 PolyharmonicFit<Dim>::PolyharmonicFit(int phs, int degree)
-    : power_(RadialFunction::Form::odd_power, phs),
+    : phs_(phs),
+      power_(RadialFunction::Form::odd_power, phs),
       monomials_(Derivatives<Dim>::between_orders(0, degree)) {
   if (phs % 2 == 0) {
     throw UsageError(
@@ -107,6 +108,13 @@ void PolyharmonicFit<Dim>::evaluate(const LocalStencil<Dim>& stencil, Workspace&
     work.polynomials.apply_q(work.radial);
     for (int j = 0; j < n; ++j) weights(d, j) = work.radial[j];
   }
+}
+
+template <int Dim>
+void PolyharmonicFit<Dim>::fill_batch(const StencilBatch<Dim>& batch, Workspace& work,
+                                      Weights& weights, std::span<LocalOutcome> outcomes) const {
+  work.batch.prepare(phs_, monomials_, batch.derivatives);
+  work.batch.fill(batch, weights, outcomes);
 }
 
 template <int Dim>

@@ -8,6 +8,7 @@
 #include "methods/core/derivatives.hpp"
 #include "methods/core/local_method.hpp"
 #include "methods/core/local_solvers.hpp"
+#include "methods/core/polyharmonic_batch.hpp"
 #include "methods/core/radial_derivative.hpp"
 #include "methods/core/radial_function.hpp"
 
@@ -29,6 +30,7 @@ class PolyharmonicFit {
     std::vector<double> constraint;  ///< (m)
     Derivatives<Dim> prepared;       ///< the derivatives that `radials` belongs to
     std::vector<RadialDerivative<Dim>> radials;
+    PolyharmonicBatch<Dim> batch;
   };
 
   /// Throws UsageError unless phs is odd and the degree is at least (phs - 1) / 2.
@@ -40,12 +42,17 @@ class PolyharmonicFit {
   /// Weights (derivatives, n) at `offset` from the anchor, all in units of the stencil radius.
   void evaluate(const LocalStencil<Dim>& stencil, Workspace& work, const Point<Dim>& offset,
                 const Derivatives<Dim>& derivatives, Eigen::Map<Eigen::MatrixXd> weights) const;
+  /// Weights of many stencils side by side (polyharmonic_weights); those whose nodes are too few or
+  /// nearly degenerate are left undecided.
+  void fill_batch(const StencilBatch<Dim>& batch, Workspace& work, Weights& weights,
+                  std::span<LocalOutcome> outcomes) const;
   /// The bordered matrix [Phi P; P^T 0], (n + m, n + m).
   Eigen::MatrixXd local_matrix(const LocalStencil<Dim>& stencil, Scaling scaling) const;
   /// Derivatives of order below phs, where r^phs is smooth enough, can be given.
   std::string unsupported(const Derivatives<Dim>& derivatives) const;
 
  private:
+  int phs_;
   RadialFunction power_;
   Derivatives<Dim> monomials_;
 };

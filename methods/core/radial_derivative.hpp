@@ -14,19 +14,22 @@ namespace strongpoint {
 template <int Dim>
 class RadialDerivative {
  public:
+  /// One term of the sum.
+  struct Term {
+    double coefficient;
+    std::array<int, Dim> exponents;
+    int outer;  ///< m, order of the derivative of f
+  };
+
   explicit RadialDerivative(const MultiIndex<Dim>& alpha);
 
+  const std::vector<Term>& terms() const { return terms_; }
   /// Value at x from f[m] = f^(m)(|x|^2), m = 0 to the order of the derivative. At x = 0 only the
   /// terms without a power of a coordinate count, so that f[m] may be infinite there where the
   /// function is smooth enough nevertheless (r^3, cubic splines).
   double operator()(const Point<Dim>& x, const double* f) const;
 
  private:
-  struct Term {
-    double coefficient;
-    std::array<int, Dim> exponents;
-    int outer;  ///< m, order of the derivative of f
-  };
   std::vector<Term> terms_;
 };
 
