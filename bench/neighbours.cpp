@@ -8,6 +8,8 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include "bench/neighbour_goals.hpp"
+#include "bench/report.hpp"
 #include "problems/core/random.hpp"
 
 namespace strongpoint {
@@ -87,7 +89,7 @@ void build_engine(benchmark::State& state, const Setup& setup) {
 /// Process CPU time is reported: it does not depend on the number of threads.
 template <int Dim>
 void register_size(int nodes, const std::vector<int>& stencil_sizes) {
-  for (const char* engine : {"nanoflann", "grid", "brute"}) {
+  for (const char* engine : {"nanoflann", "grid", "bucket", "brute"}) {
     for (int k : stencil_sizes) {
       const std::string name =
           fmt::format("nearest/{}/dim:{}/k:{}/nodes:{}/seed:{}", engine, Dim, k, nodes, seed);
@@ -108,13 +110,11 @@ void register_size(int nodes, const std::vector<int>& stencil_sizes) {
 }  // namespace strongpoint
 
 int main(int argc, char** argv) {
+  bool failed = false;
+  strongpoint::register_neighbour_goals(failed);
   for (int nodes : {10000, 100000, 1000000}) {
     strongpoint::register_size<2>(nodes, {9, 15, 25});
     strongpoint::register_size<3>(nodes, {30});
   }
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
-  return 0;
+  return strongpoint::run_registered(argc, argv, failed);
 }

@@ -4,12 +4,15 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "methods/core/error.hpp"
 #include "methods/core/neighbours_brute.hpp"
+#include "methods/core/neighbours_bucket.hpp"
 #include "methods/core/neighbours_grid.hpp"
+#include "methods/core/neighbours_line.hpp"
 #include "methods/core/neighbours_nanoflann.hpp"
 #include "methods/core/parallel_errors.hpp"
 
@@ -88,16 +91,22 @@ template <int Dim, NeighbourEngine<Dim> Engine>
 class BatchSearch final : public NeighbourSearch<Dim> {
  public:
   explicit BatchSearch(const Points<Dim>& nodes)
-      : count_(static_cast<int>(nodes.cols())), engine_(nodes) {}
+      : nodes_(nodes), count_(static_cast<int>(nodes.cols())), engine_(nodes) {}
 
   Stencils nearest(const Points<Dim>& queries, int k, Ties ties) const override {
     if (k < 1) throw std::invalid_argument(fmt::format("nearest: k = {} must be at least 1", k));
     check_coordinates<Dim>(queries, "query");
     if (count_ == 0) return all_empty(queries);
-    const NearestCollector collector(std::min(k, count_), ties);
+    k = std::min(k, count_);
+    if constexpr (GroupEngine<Engine, Dim>) {
+      if (k <= group_k_max) return nearest_in_groups<Dim>(engine_, nodes_, queries, k, ties);
+    }
+    const NearestCollector collector(k, ties);
     return search_all<Dim>(engine_, queries, collector,
                            [](NearestCollector& c, int) { c.clear(); });
   }
+
+  const Engine& engine() const { return engine_; }
 
   Stencils within(const Points<Dim>& queries, std::span<const double> radii) const override {
     if (radii.size() != static_cast<std::size_t>(queries.cols())) {
@@ -116,6 +125,7 @@ class BatchSearch final : public NeighbourSearch<Dim> {
   }
 
  private:
+  const Points<Dim>& nodes_;
   int count_;
   Engine engine_;
 
@@ -138,13 +148,38 @@ std::unique_ptr<NeighbourSearch<Dim>> make_engine(const Points<Dim>& nodes) {
   return std::make_unique<BatchSearch<Dim, Engine<Dim>>>(nodes);
 }
 
-/// All engines; the tree serves every cloud well, hence `auto`.
+/// On a line an engine by order replaces the one by buckets.
 template <int Dim>
-constexpr std::array<EngineEntry<Dim>, 4> engines{{
-    {"auto", &make_engine<Dim, NanoflannEngine>},
+struct BucketOrLine {
+  using Engine = BucketEngine<Dim>;
+};
+template <>
+struct BucketOrLine<1> {
+  using Engine = LineEngine<1>;
+};
+template <int Dim>
+using BucketEngineFor = typename BucketOrLine<Dim>::Engine;
+
+/// The grid where the nodes are spread evenly, else buckets.
+template <int Dim>
+std::unique_ptr<NeighbourSearch<Dim>> make_fitting(const Points<Dim>& nodes) {
+  if constexpr (Dim == 1) {
+    return make_engine<1, LineEngine>(nodes);
+  } else {
+    auto grid = std::make_unique<BatchSearch<Dim, GridEngine<Dim>>>(nodes);
+    if (grid->engine().is_even()) return grid;
+    return make_engine<Dim, BucketEngine>(nodes);
+  }
+}
+
+/// All engines.
+template <int Dim>
+constexpr std::array<EngineEntry<Dim>, 5> engines{{
+    {"auto", &make_fitting<Dim>},
     {"brute", &make_engine<Dim, BruteEngine>},
     {"nanoflann", &make_engine<Dim, NanoflannEngine>},
     {"grid", &make_engine<Dim, GridEngine>},
+    {"bucket", &make_engine<Dim, BucketEngineFor>},
 }};
 
 }  // namespace

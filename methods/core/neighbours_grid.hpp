@@ -5,9 +5,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
-#include "methods/core/neighbours_collectors.hpp"
+#include "methods/core/neighbours_groups.hpp"
 
 namespace strongpoint {
 
@@ -26,7 +27,7 @@ class GridEngine {
 
   /// Offers all nodes within the collector's bound.
   void visit(const Point<Dim>& query, CandidateCollector auto& collector) const {
-    if (nodes_.empty()) return;
+    if (sorted_.size() == 0) return;
     const Cell home = cell_of(query);
     int inner = -1;
     int outer = first_shell(collector.expected());
@@ -39,11 +40,38 @@ class GridEngine {
     }
   }
 
+  /// The nodes by cell; a cell is a group.
+  const SortedNodes<Dim>& sorted() const { return sorted_; }
+  int groups() const { return static_cast<int>(cell_start_.size()) - 1; }
+  std::pair<int, int> group(int g) const { return {cell_start_[g], cell_start_[g + 1]}; }
+  int group_of(const Point<Dim>& x) const { return index_of(cell_of(x)); }
+  /// Whether the cells share the nodes well: the fullest one holds less than 8 times the mean of
+  /// those that hold any.
+  bool is_even() const {
+    int fullest = 0;
+    int occupied = 0;
+    for (int g = 0; g < groups(); ++g) {
+      const int count = cell_start_[g + 1] - cell_start_[g];
+      fullest = std::max(fullest, count);
+      occupied += count > 0 ? 1 : 0;
+    }
+    return static_cast<double>(fullest) * occupied < 8.0 * sorted_.size();
+  }
+  /// Squared radius of a ball of about k nodes at the density of cell g.
+  double expected_square(int g, int k) const {
+    const double count = std::max(1, cell_start_[g + 1] - cell_start_[g]);
+    return square_of_ball(k / count, edge_, directions_);
+  }
+  /// Sets ranges, begin and end, of the sorted nodes that include all within `reach` of a box.
+  void list_ranges(const Point<Dim>& low, const Point<Dim>& high, double reach,
+                   std::vector<int>& ranges) const;
+
  private:
   using Cell = std::array<int, Dim>;
 
-  /// Mean number of nodes in a cell of an even cloud: about k/3 for the usual stencils.
-  static constexpr double nodes_per_cell = 3;
+  /// Mean number of nodes in a cell of an even cloud. Measured: few enough that the list around a
+  /// cell is not long, many enough that it serves several queries.
+  static constexpr double nodes_per_cell = Dim == 1 ? 3 : Dim == 2 ? 9 : 12;
   /// Keeps round-off in the distance to a cell from hiding a node on its face.
   static constexpr double shy = 1 - 1e-12;
 
@@ -52,8 +80,8 @@ class GridEngine {
   double edge_ = 1;              ///< of a cell
   double slack_ = 0;             ///< bounds the round-off in telling the cell of a node
   std::vector<int> cell_start_;  ///< (cells + 1) into the arrays below
-  std::vector<int> nodes_;       ///< (N) node ids by cell, ascending within a cell
-  std::array<std::vector<double>, Dim> coordinates_;  ///< (N) each, in the order of `nodes_`
+  int directions_ = 0;           ///< in which the cloud is thicker than a cell
+  SortedNodes<Dim> sorted_;      ///< by cell, ids ascending within a cell
 
   void choose_cells(const Points<Dim>& nodes);
   void sort_by_cell(const Points<Dim>& nodes);
@@ -123,6 +151,7 @@ void GridEngine<Dim>::choose_cells(const Points<Dim>& nodes) {
       break;
     }
   }
+  directions_ = Dim - static_cast<int>(std::count(thin.begin(), thin.end(), true));
   for (int c = 0; c < Dim; ++c) counts_[c] = thin[c] ? 1 : static_cast<int>(extent[c] / edge_) + 1;
   slack_ = 8 * std::numeric_limits<double>::epsilon() *
            (low_.cwiseAbs().maxCoeff() + high_.cwiseAbs().maxCoeff());
@@ -141,11 +170,36 @@ void GridEngine<Dim>::sort_by_cell(const Points<Dim>& nodes) {
   }
   for (int i = 0; i < cells; ++i) cell_start_[i + 1] += cell_start_[i];
   std::vector<int> next(cell_start_.begin(), cell_start_.end() - 1);
-  nodes_.resize(static_cast<std::size_t>(count));
-  for (int i = 0; i < count; ++i) nodes_[next[cell[i]]++] = i;
-  for (int c = 0; c < Dim; ++c) {
-    coordinates_[c].resize(static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i) coordinates_[c][i] = nodes(c, nodes_[i]);
+  std::vector<int> order(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) order[next[cell[i]]++] = i;
+  sorted_.assign(nodes, std::move(order));
+}
+
+template <int Dim>
+void GridEngine<Dim>::list_ranges(const Point<Dim>& low, const Point<Dim>& high, double reach,
+                                  std::vector<int>& ranges) const {
+  const double wide = reach * (1 + 1e-9) + slack_ +
+                      1e-15 * (low.cwiseAbs().maxCoeff() + high.cwiseAbs().maxCoeff());
+  const Cell first = cell_of(low - Point<Dim>::Constant(wide));
+  const Cell last = cell_of(high + Point<Dim>::Constant(wide));
+  ranges.clear();
+  Cell cell = first;
+  while (true) {
+    cell[Dim - 1] = 0;
+    const int row = index_of(cell);
+    const int begin = cell_start_[row + first[Dim - 1]];
+    const int end = cell_start_[row + last[Dim - 1] + 1];
+    if (begin < end) {
+      ranges.push_back(begin);
+      ranges.push_back(end);
+    }
+    int c = Dim - 2;
+    while (c >= 0 && cell[c] == last[c]) {
+      cell[c] = first[c];
+      --c;
+    }
+    if (c < 0) return;
+    ++cell[c];
   }
 }
 
@@ -209,9 +263,9 @@ void GridEngine<Dim>::scan_row(const Point<Dim>& x, Cell cell, int first, int la
   const int row = index_of(cell);
   for (int i = cell_start_[row + first]; i < cell_start_[row + last + 1]; ++i) {
     Point<Dim> node;
-    for (int c = 0; c < Dim; ++c) node[c] = coordinates_[c][i];
+    for (int c = 0; c < Dim; ++c) node[c] = sorted_.coordinates[c][i];
     const double d2 = squared_distance<Dim>(x, node);
-    if (d2 <= collector.bound()) collector.offer({d2, nodes_[i]});
+    if (d2 <= collector.bound()) collector.offer({d2, sorted_.ids[i]});
   }
 }
 
