@@ -1,0 +1,10 @@
+# voro++ in Debian 12 ships no CMake package; gives the target Voro::Voro.
+find_path(Voro_INCLUDE_DIR voro++/voro++.hh)
+find_library(Voro_LIBRARY voro++)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(Voro REQUIRED_VARS Voro_LIBRARY Voro_INCLUDE_DIR)
+if(Voro_FOUND AND NOT TARGET Voro::Voro)
+  add_library(Voro::Voro INTERFACE IMPORTED)
+  target_include_directories(Voro::Voro SYSTEM INTERFACE ${Voro_INCLUDE_DIR})
+  target_link_libraries(Voro::Voro INTERFACE ${Voro_LIBRARY})
+endif()
