@@ -92,14 +92,16 @@ CellFaces<Dim> cell_faces(const PointCloud<Dim>& cloud, const Domain<Dim>& domai
   PointStore<Dim> store(cloud.size(), omp_get_max_threads());
   visit_cells(cloud, search, [&] {
     const int thread = omp_get_thread_num();
-    return [&, thread, maker = FaceMaker<Dim>(setting)](int node,
-                                                        std::span<const int> neighbours) mutable {
+    return [&, thread, maker = FaceMaker<Dim>(setting)](const CellBlock& block) mutable {
       std::vector<FacePoint<Dim>>& points = store.of_thread(thread);
-      const std::size_t before = points.size();
-      const CellState state = add_settled(cloud, maker, node, neighbours, points);
-      if (state != CellState::settled) points.resize(before);
-      store.note(node, thread, before, points.size());
-      return state != CellState::open;
+      for (int i = 0; i < block.size(); ++i) {
+        const int node = block.nodes[i];
+        const std::size_t before = points.size();
+        const CellState state = add_settled(cloud, maker, node, block.neighbours(i), points);
+        if (state != CellState::settled) points.resize(before);
+        store.note(node, thread, before, points.size());
+        block.is_open[i] = state == CellState::open ? 1 : 0;
+      }
     };
   });
   CellFaces<Dim> faces = store.collect();

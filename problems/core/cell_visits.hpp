@@ -20,26 +20,46 @@ inline constexpr int first_neighbours[] = {0, 6, 20, 48};
 /// Cells made between two searches: bounds the memory of their neighbour lists.
 inline constexpr std::size_t cell_batch_size = 32768;
 
+/// Cells that a worker makes at a time.
+inline constexpr int cell_block_size = 128;
+
+/// Some nodes in a row with their neighbours, sorted by distance, the node included.
+struct CellBlock {
+  std::span<const int> nodes;
+  const Stencils& stencils;  ///< of all nodes of the batch
+  int first;                 ///< of the block's in the batch
+  std::span<char> is_open;   ///< to be set: not 0 where the neighbours do not settle the cell
+
+  int size() const { return static_cast<int>(nodes.size()); }
+  std::span<const int> neighbours(int i) const { return stencils[first + i]; }
+};
+
 /// Visits the cells of some nodes in parallel with their `neighbours`; marks those left open.
 template <class MakeWorker>
 void visit_batch(std::span<const int> nodes, const Stencils& neighbours, MakeWorker& make_worker,
-                 std::vector<char>& is_open) {
+                 std::span<char> is_open) {
   ParallelErrors errors;
+  const int count = static_cast<int>(nodes.size());
+  const int blocks = (count + cell_block_size - 1) / cell_block_size;
 #pragma omp parallel
   {
     auto worker = make_worker();
-#pragma omp for schedule(dynamic, 64)
-    for (int i = 0; i < static_cast<int>(nodes.size()); ++i) {
-      errors.guard(i, [&] { is_open[i] = worker(nodes[i], neighbours[i]) ? 0 : 1; });
+#pragma omp for schedule(dynamic, 1)
+    for (int b = 0; b < blocks; ++b) {
+      const auto first = static_cast<std::size_t>(b * cell_block_size);
+      const std::size_t size = std::min<std::size_t>(cell_block_size, nodes.size() - first);
+      errors.guard(b, [&] {
+        worker(CellBlock{nodes.subspan(first, size), neighbours, static_cast<int>(first),
+                         is_open.subspan(first, size)});
+      });
     }
   }
   errors.rethrow();
 }
 
 /// Visits the cell of every node with enough neighbours to settle it. `make_worker()` is called in
-/// each thread and gives a worker; `worker(node, neighbours)`, neighbours sorted by distance and
-/// the node included, says whether they settled the cell. Nodes left open are visited again with
-/// twice as many, at last with all.
+/// each thread and gives a worker; `worker(block)` says whether they settled the cells of a
+/// `CellBlock`. Nodes left open are visited again with twice as many, at last with all.
 template <int Dim, class MakeWorker>
 void visit_cells(const PointCloud<Dim>& cloud, const NeighbourSearch<Dim>& search,
                  MakeWorker make_worker) {

@@ -1,0 +1,158 @@
+#include "problems/core/cell_rings.hpp"
+
+#include "methods/core/simd/pack.hpp"
+
+namespace strongpoint::STRONGPOINT_SIMD_PATH {
+namespace {
+
+constexpr double infinity = __builtin_inf();
+
+/// Positions relative to their nodes, a node a lane.
+struct Arms {
+  Pack x[most_ring_neighbours];
+  Pack y[most_ring_neighbours];
+};
+
+/// The point of a bisector where another one crosses it.
+struct Corner {
+  Pack x, y;
+  Pack next;  ///< place of the node whose bisector goes on from there
+};
+
+/// Row of the task that a lane treats; the last one is repeated where the group is not full.
+int row_of(const RingTask& task, int first, int lane) {
+  return first + lane < task.count ? first + lane : task.count - 1;
+}
+
+void gather(const RingTask& task, int first, Arms& arms) {
+  const int* ids[lanes];
+  double origin[2][lanes];
+  double buffer[2][lanes];
+  for (int lane = 0; lane < lanes; ++lane) {
+    const int row = row_of(task, first, lane);
+    ids[lane] = task.ids + task.offsets[row];
+    const double* const node = task.nodes + 2 * static_cast<long>(task.chosen[row]);
+    origin[0][lane] = node[0];
+    origin[1][lane] = node[1];
+  }
+  const Pack x = load(origin[0]);
+  const Pack y = load(origin[1]);
+  for (int j = 0; j < task.size; ++j) {
+    for (int lane = 0; lane < lanes; ++lane) {
+      const double* const node = task.nodes + 2 * static_cast<long>(ids[lane][j]);
+      buffer[0][lane] = node[0];
+      buffer[1][lane] = node[1];
+    }
+    arms.x[j] = load(buffer[0]) - x;
+    arms.y[j] = load(buffer[1]) - y;
+  }
+}
+
+/// Follows the bisector of the arm (ax, ay) counter-clockwise to the nearest crossing. The bisector
+/// is a/2 + t/2 (-ay, ax); that of b crosses it at t = b.(b - a) / (a x b), from inside where the
+/// cross product is positive. Not finite where none does.
+Corner next_corner(const Arms& arms, int size, Pack ax, Pack ay) {
+  const Pack none = all(infinity);
+  const Pack one = all(1);
+  Corner corner{all(0), all(0), all(0)};
+  Pack above = none;
+  Pack below = one;
+  Pack place = one;
+  for (int j = 1; j < size; ++j) {
+    const Pack bx = arms.x[j];
+    const Pack by = arms.y[j];
+    const Pack x = bx - ax;
+    const Pack y = by - ay;
+    // a x (b - a): exactly zero for a itself, which fused products of a x b are not.
+    const Pack cross = ax * y - ay * x;
+    const Pack crosses = choose(less(all(0), cross), bx * x + by * y, none);
+    const unsigned nearer = less(crosses * below, above * cross);
+    above = choose(nearer, crosses, above);
+    below = choose(nearer, cross, below);
+    corner.next = choose(nearer, place, corner.next);
+    place = place + one;
+  }
+  const Pack t = above / below;
+  corner.x = all(0.5) * (ax - t * ay);
+  corner.y = all(0.5) * (ay + t * ax);
+  return corner;
+}
+
+/// Goes on to the next node of each lane in `on`; returns the lanes that are not back at the first.
+unsigned turn(const Arms& arms, const Corner& corner, unsigned on, Pack& ax, Pack& ay) {
+  double next[lanes], x[lanes], y[lanes];
+  store(next, corner.next);
+  unsigned back = 0;
+  for (int lane = 0; lane < lanes; ++lane) {
+    const int place = static_cast<int>(next[lane]);
+    x[lane] = reinterpret_cast<const double*>(arms.x + place)[lane];
+    y[lane] = reinterpret_cast<const double*>(arms.y + place)[lane];
+    back |= static_cast<unsigned>(place == 1) << lane;
+  }
+  ax = load(x);
+  ay = load(y);
+  return on & ~back;
+}
+
+/// Writes a corner of each lane in `on` into the rings.
+void keep_corner(const RingTask& task, int first, int step, unsigned on, const Corner& corner) {
+  double x[lanes], y[lanes], next[lanes];
+  store(x, corner.x);
+  store(y, corner.y);
+  store(next, corner.next);
+  for (int lane = 0; lane < lanes && first + lane < task.count; ++lane) {
+    if ((on >> lane & 1U) == 0) continue;
+    const long row = first + lane;
+    const long at = row * most_ring_corners + step;
+    task.ring_corners[2 * at] = x[lane];
+    task.ring_corners[2 * at + 1] = y[lane];
+    task.ring_places[at] = static_cast<int>(next[lane]);
+    task.ring_sizes[row] = step + 1;
+  }
+}
+
+void walk_around(const RingTask& task, int first, const Arms& arms) {
+  Pack ax = arms.x[1];
+  Pack ay = arms.y[1];
+  Pack first_x = all(0), first_y = all(0), last_x = all(0), last_y = all(0);
+  Pack twice_area = all(0);
+  Pack farthest = all(0);
+  // Lanes whose nearest node is at their own place never start.
+  unsigned bounded = less(all(0), ax * ax + ay * ay);
+  unsigned on = bounded;
+  for (int step = 0; step < most_ring_corners && on != 0; ++step) {
+    const Corner corner = next_corner(arms, task.size, ax, ay);
+    if (step == 0) {
+      first_x = corner.x;
+      first_y = corner.y;
+    } else {
+      twice_area = choose(on, twice_area + (last_x * corner.y - last_y * corner.x), twice_area);
+    }
+    farthest = choose(on, max(farthest, corner.x * corner.x + corner.y * corner.y), farthest);
+    bounded &= less(farthest, all(infinity));
+    if (task.ring_sizes != nullptr) keep_corner(task, first, step, on, corner);
+    last_x = choose(on, corner.x, last_x);
+    last_y = choose(on, corner.y, last_y);
+    on = turn(arms, corner, on & bounded, ax, ay);
+  }
+  twice_area = twice_area + (last_x * first_y - last_y * first_x);
+  double areas[lanes], squares[lanes];
+  store(areas, all(0.5) * twice_area);
+  store(squares, choose(bounded & ~on, farthest, all(infinity)));
+  for (int lane = 0; lane < lanes && first + lane < task.count; ++lane) {
+    task.areas[first + lane] = areas[lane];
+    task.farthest_squared[first + lane] = squares[lane];
+  }
+}
+
+}  // namespace
+
+void find_cell_rings(const RingTask& task) {
+  Arms arms;
+  for (int first = 0; first < task.count; first += lanes) {
+    gather(task, first, arms);
+    walk_around(task, first, arms);
+  }
+}
+
+}  // namespace strongpoint::STRONGPOINT_SIMD_PATH
