@@ -17,33 +17,6 @@ std::int64_t quota(double fill, std::int64_t count, std::int64_t room) {
       std::min(std::ceil(fill * static_cast<double>(count)), static_cast<double>(room)));
 }
 
-/// Inverts a block by Gauss-Jordan elimination with row pivoting; false when a pivot is at most
-/// `least`.
-template <int Size>
-bool invert(Eigen::Matrix<double, Size, Size> block, double least,
-            Eigen::Matrix<double, Size, Size>& inverse) {
-  inverse.setIdentity();
-  for (int k = 0; k < Size; ++k) {
-    int best = k;
-    for (int row = k + 1; row < Size; ++row) {
-      if (std::abs(block(row, k)) > std::abs(block(best, k))) best = row;
-    }
-    if (!(std::abs(block(best, k)) > least)) return false;
-    block.row(k).swap(block.row(best));
-    inverse.row(k).swap(inverse.row(best));
-    const double pivot = block(k, k);
-    block.row(k) /= pivot;
-    inverse.row(k) /= pivot;
-    for (int row = 0; row < Size; ++row) {
-      if (row == k) continue;
-      const double factor = block(row, k);
-      block.row(row) -= factor * block.row(k);
-      inverse.row(row) -= factor * inverse.row(k);
-    }
-  }
-  return true;
-}
-
 }  // namespace
 
 /// A sparse row being eliminated: blocks in the order of their arrival, found by column, and the
@@ -100,7 +73,8 @@ class BlockIlut<Size>::Row {
 };
 
 template <int Size>
-BlockIlut<Size>::BlockIlut(const BlockMatrix<Size>& matrix, const Parameters& parameters) {
+BlockIlut<Size>::BlockIlut(const BlockMatrix<Size>& matrix, const Parameters& parameters)
+    : Preconditioner(static_cast<Eigen::Index>(matrix.rows()) * Size) {
   const int rows = matrix.rows();
   reserve(matrix, parameters.fill);
   Row row(rows);
@@ -121,11 +95,13 @@ BlockIlut<Size>::BlockIlut(const BlockMatrix<Size>& matrix, const Parameters& pa
       throw CaseError(fmt::format("block row {} of the system holds zeros alone", index));
     }
     eliminate(row, index, parameters.drop * mean);
-    keep(row, row.lower, quota(parameters.fill, left, index), lower_);
-    keep(row, row.upper, quota(parameters.fill, end - begin - left, rows - 1 - index), upper_);
+    keep(row, row.lower, quota(parameters.fill, left, index), factors_.lower);
+    keep(row, row.upper, quota(parameters.fill, end - begin - left, rows - 1 - index),
+         factors_.upper);
     // Source of the shift: Saad's SPARSKIT, ilut.
-    invert_pivot(row.block(diagonal), (1e-4 + parameters.drop) * mean);
+    factors_.append_pivot(row.block(diagonal), (1e-4 + parameters.drop) * mean);
   }
+  factors_.finish();
 }
 
 template <int Size>
@@ -140,14 +116,9 @@ void BlockIlut<Size>::reserve(const BlockMatrix<Size>& matrix, double fill) {
     lower += quota(fill, left, row);
     upper += quota(fill, end - begin - left, rows - 1 - row);
   }
-  const auto prepare = [rows](Triangle& triangle, std::int64_t blocks) {
-    triangle.offsets.reserve(rows + 1);
-    triangle.columns.reserve(blocks);
-    triangle.values.reserve(blocks * entries);
-  };
-  prepare(lower_, lower);
-  prepare(upper_, upper);
-  pivots_.reserve(static_cast<std::size_t>(rows) * entries);
+  factors_.lower.reserve(rows, lower);
+  factors_.upper.reserve(rows, upper);
+  factors_.pivots.reserve(static_cast<std::size_t>(rows) * entries);
 }
 
 /// Subtracts multiples of the rows above; blocks of at most `least` are dropped on the way.
@@ -157,15 +128,13 @@ void BlockIlut<Size>::eliminate(Row& row, int index, double least) {
   row.upper.clear();
   for (int k = row.next_lower(0); k < index; k = row.next_lower(k + 1)) {
     const int slot = row.slot(k);
-    const Block factor = row.block(slot).lazyProduct(
-        Eigen::Map<const Block>(pivots_.data() + static_cast<std::ptrdiff_t>(k) * entries));
+    const Block factor = row.block(slot).lazyProduct(factors_.pivot(k));
     if (factor.norm() <= least) continue;
     row.block(slot) = factor;
     row.lower.push_back(slot);
-    for (std::int64_t i = upper_.offsets[k]; i < upper_.offsets[k + 1]; ++i) {
-      const Eigen::Map<const Eigen::Matrix<float, Size, Size>> above(upper_.values.data() +
-                                                                     i * entries);
-      row.block(row.slot(upper_.columns[i])) -= factor.lazyProduct(above.template cast<double>());
+    const SingleMatrix<Size>& above = factors_.upper;
+    for (std::int64_t i = above.offsets[k]; i < above.offsets[k + 1]; ++i) {
+      row.block(row.slot(above.columns[i])) -= factor.lazyProduct(factors_.above(i));
     }
   }
   for (int slot = 0; slot < static_cast<int>(row.columns.size()); ++slot) {
@@ -176,7 +145,7 @@ void BlockIlut<Size>::eliminate(Row& row, int index, double least) {
 /// Appends the `most` largest of the chosen slots to a triangle, equal ones by column.
 template <int Size>
 void BlockIlut<Size>::keep(const Row& row, std::vector<int>& chosen, std::int64_t most,
-                           Triangle& triangle) {
+                           SingleMatrix<Size>& triangle) {
   if (static_cast<std::int64_t>(chosen.size()) > most) {
     std::nth_element(chosen.begin(), chosen.begin() + most, chosen.end(), [&](int a, int b) {
       const double size_a = row.size(a);
@@ -188,58 +157,10 @@ void BlockIlut<Size>::keep(const Row& row, std::vector<int>& chosen, std::int64_
   std::sort(chosen.begin(), chosen.end(),
             [&](int a, int b) { return row.columns[a] < row.columns[b]; });
   for (const int slot : chosen) {
-    triangle.columns.push_back(row.columns[slot]);
-    const double* block = row.blocks.data() + static_cast<std::ptrdiff_t>(slot) * entries;
-    for (int i = 0; i < entries; ++i) triangle.values.push_back(static_cast<float>(block[i]));
+    triangle.append(row.columns[slot],
+                    row.blocks.data() + static_cast<std::ptrdiff_t>(slot) * entries);
   }
-  triangle.offsets.push_back(static_cast<std::int64_t>(triangle.columns.size()));
-}
-
-/// Appends an inverted pivot block, shifted when it is singular.
-template <int Size>
-void BlockIlut<Size>::invert_pivot(const Block& pivot, double shift) {
-  const int row = static_cast<int>(pivots_.size()) / entries;
-  // A pivot this far below the shift would blow up what follows; the shift is of the size dropped.
-  constexpr double least_share = 1e-6;
-  Block inverse;
-  Block shifted = pivot;
-  if (!invert<Size>(shifted, least_share * shift, inverse)) {
-    ++shifted_;
-    do {
-      if (!std::isfinite(shift)) {
-        throw CaseError(fmt::format("the pivot of block row {} is not finite", row));
-      }
-      shifted = pivot + shift * Block::Identity();
-      shift *= 2;
-    } while (!invert<Size>(shifted, least_share * shift, inverse));
-  }
-  pivots_.insert(pivots_.end(), inverse.data(), inverse.data() + entries);
-}
-
-template <int Size>
-void BlockIlut<Size>::apply(const Eigen::VectorXd& r, Eigen::VectorXd& z) const {
-  using Part = Eigen::Matrix<double, Size, 1>;
-  const auto subtract = [&z](const Triangle& triangle, int row, Part& sum) {
-    for (std::int64_t i = triangle.offsets[row]; i < triangle.offsets[row + 1]; ++i) {
-      const Eigen::Map<const Eigen::Matrix<float, Size, Size>> block(triangle.values.data() +
-                                                                     i * entries);
-      const auto column = static_cast<Eigen::Index>(triangle.columns[i]) * Size;
-      sum -= block.template cast<double>().lazyProduct(z.segment<Size>(column));
-    }
-  };
-  const int rows = static_cast<int>(lower_.offsets.size()) - 1;
-  for (int row = 0; row < rows; ++row) {
-    Part sum = r.segment<Size>(static_cast<Eigen::Index>(row) * Size);
-    subtract(lower_, row, sum);
-    z.segment<Size>(static_cast<Eigen::Index>(row) * Size) = sum;
-  }
-  for (int row = rows - 1; row >= 0; --row) {
-    Part sum = z.segment<Size>(static_cast<Eigen::Index>(row) * Size);
-    subtract(upper_, row, sum);
-    const Eigen::Map<const Block> pivot(pivots_.data() +
-                                        static_cast<std::ptrdiff_t>(row) * entries);
-    z.segment<Size>(static_cast<Eigen::Index>(row) * Size) = pivot.lazyProduct(sum);
-  }
+  triangle.end_row();
 }
 
 template class BlockIlut<1>;

@@ -5,7 +5,8 @@
 
 #include <Eigen/Core>
 
-#include "problems/core/block_matrix.hpp"
+#include "problems/core/block_factors.hpp"
+#include "problems/core/preconditioner.hpp"
 
 namespace strongpoint {
 
@@ -13,10 +14,9 @@ namespace strongpoint {
 /// blocks, those of U are stored inverted. Source: Saad 1994, ILUT, and Saad 2003, algorithm 10.6,
 /// with blocks for numbers and Frobenius norms for magnitudes. Deviations: a row keeps a multiple
 /// of its own number of blocks, not a fixed number; a singular pivot block is shifted and counted.
-/// The factors are kept in single precision, which is far below what is dropped, at half the memory
-/// and traffic; rows are eliminated in double.
+/// Rows are eliminated in double precision.
 template <int Size>
-class BlockIlut {
+class BlockIlut : public Preconditioner {
  public:
   /// What is dropped.
   struct Parameters {
@@ -28,36 +28,27 @@ class BlockIlut {
   /// CaseError for a row of zeros and for factors that are not finite, naming the block row.
   BlockIlut(const BlockMatrix<Size>& matrix, const Parameters& parameters);
 
-  /// z = U^-1 L^-1 r; r and z may not be the same.
-  void apply(const Eigen::VectorXd& r, Eigen::VectorXd& z) const;
-
-  /// Pivot blocks that were singular and have been shifted.
-  int shifted_pivots() const { return shifted_; }
+  using Preconditioner::apply;
+  void apply(const Eigen::VectorXf& r, Eigen::VectorXf& z) const override { factors_.apply(r, z); }
+  int shifted_pivots() const override { return factors_.shifted; }
+  std::size_t bytes() const override { return factors_.bytes(); }
   /// Blocks kept in both triangles, without the diagonal.
   std::int64_t blocks() const {
-    return static_cast<std::int64_t>(lower_.columns.size() + upper_.columns.size());
+    return static_cast<std::int64_t>(factors_.lower.columns.size() + factors_.upper.columns.size());
   }
 
  private:
   static constexpr int entries = Size * Size;
   using Block = Eigen::Matrix<double, Size, Size>;
 
-  /// One strict triangle in compressed rows.
-  struct Triangle {
-    std::vector<std::int64_t> offsets{0};
-    std::vector<int> columns;
-    std::vector<float> values;
-  };
   class Row;
 
-  Triangle lower_, upper_;
-  std::vector<double> pivots_;  ///< (rows * entries) inverted diagonal blocks of U
-  int shifted_ = 0;
+  BlockFactors<Size> factors_;
 
   void reserve(const BlockMatrix<Size>& matrix, double fill);
   void eliminate(Row& row, int index, double least);
-  void keep(const Row& row, std::vector<int>& chosen, std::int64_t most, Triangle& triangle);
-  void invert_pivot(const Block& pivot, double shift);
+  void keep(const Row& row, std::vector<int>& chosen, std::int64_t most,
+            SingleMatrix<Size>& triangle);
 };
 
 }  // namespace strongpoint

@@ -74,7 +74,7 @@ BlockMatrix<Size> block_matrix(const LinearSystem& system, const std::vector<int
   }
   for (int row = 0; row < rows; ++row) matrix.offsets[row + 1] += matrix.offsets[row];
   matrix.columns.resize(matrix.offsets.back());
-  matrix.values.resize(matrix.offsets.back() * matrix.entries);
+  matrix.values.resize(matrix.offsets.back() * matrix.entries + block_padding);
 #pragma omp parallel
   {
     BlockPattern<Size> pattern(system, position);
@@ -92,17 +92,13 @@ BlockMatrix<Size> block_matrix(const LinearSystem& system, const std::vector<int
 
 template <int Size>
 void BlockMatrix<Size>::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
-  using Block = Eigen::Map<const Eigen::Matrix<double, Size, Size>>;
-  using Part = Eigen::Matrix<double, Size, 1>;
-  constexpr int least_rows = 1000;  // below, waking the threads takes longer than the product
-#pragma omp parallel for schedule(static) if (rows() >= least_rows)
-  for (int row = 0; row < rows(); ++row) {
-    Part sum = Part::Zero();
-    for (std::int64_t i = offsets[row]; i < offsets[row + 1]; ++i) {
-      const auto column = static_cast<Eigen::Index>(columns[i]) * Size;
-      sum += Block(values.data() + i * entries).lazyProduct(x.segment<Size>(column));
-    }
-    y.segment<Size>(static_cast<Eigen::Index>(row) * Size) = sum;
+  constexpr int rows_a_task = 512;  // above, the threads share; waking them for less takes longer
+  const int tasks = (rows() + rows_a_task - 1) / rows_a_task;
+#pragma omp parallel for schedule(static) if (tasks > 1)
+  for (int task = 0; task < tasks; ++task) {
+    const int begin = task * rows_a_task;
+    multiply_rows<Size>(offsets.data(), columns.data(), values.data(), begin,
+                        std::min(rows(), begin + rows_a_task), x.data(), y.data());
   }
 }
 

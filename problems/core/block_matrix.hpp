@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "problems/core/block_kernels.hpp"
 #include "problems/core/solvers.hpp"
 
 namespace strongpoint {
@@ -17,7 +18,7 @@ struct BlockMatrix {
 
   std::vector<std::int64_t> offsets{0};  ///< (rows + 1) into `columns`
   std::vector<int> columns;              ///< (blocks)
-  std::vector<double> values;            ///< (blocks * entries)
+  std::vector<double> values;            ///< (blocks * entries + block_padding)
 
   int rows() const { return static_cast<int>(offsets.size()) - 1; }
   /// y = A x; the same bits on any number of threads.

@@ -1,0 +1,184 @@
+#include "problems/core/block_factors.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "methods/core/error.hpp"
+
+namespace strongpoint {
+namespace {
+
+/// Inverts a block by Gauss-Jordan elimination with row pivoting; false when a pivot is at most
+/// `least`.
+template <int Size>
+bool invert(Eigen::Matrix<double, Size, Size> block, double least,
+            Eigen::Matrix<double, Size, Size>& inverse) {
+  inverse.setIdentity();
+  for (int k = 0; k < Size; ++k) {
+    int best = k;
+    for (int row = k + 1; row < Size; ++row) {
+      if (std::abs(block(row, k)) > std::abs(block(best, k))) best = row;
+    }
+    if (!(std::abs(block(best, k)) > least)) return false;
+    block.row(k).swap(block.row(best));
+    inverse.row(k).swap(inverse.row(best));
+    const double pivot = block(k, k);
+    block.row(k) /= pivot;
+    inverse.row(k) /= pivot;
+    for (int row = 0; row < Size; ++row) {
+      if (row == k) continue;
+      const double factor = block(row, k);
+      block.row(row) -= factor * block.row(k);
+      inverse.row(row) -= factor * inverse.row(k);
+    }
+  }
+  return true;
+}
+
+/// One row of an incomplete factorisation in the matrix' own pattern; `place` finds its blocks by
+/// column and is -1 elsewhere.
+template <int Size>
+class PatternRow {
+ public:
+  using Factors = BlockFactors<Size>;
+  using Block = typename Factors::Block;
+
+  explicit PatternRow(int rows) : place_(rows, -1) {}
+
+  /// Copies row `index` of the matrix.
+  void start(const BlockMatrix<Size>& matrix, int index) {
+    begin_ = matrix.columns.data() + matrix.offsets[index];
+    count_ = static_cast<int>(matrix.offsets[index + 1] - matrix.offsets[index]);
+    const double* from = matrix.values.data() + matrix.offsets[index] * Factors::entries;
+    blocks_.assign(from, from + static_cast<std::ptrdiff_t>(count_) * Factors::entries);
+    for (int i = 0; i < count_; ++i) place_[begin_[i]] = i;
+  }
+  /// Subtracts multiples of the rows above.
+  void eliminate(const Factors& factors, int index) {
+    for (int i = 0; i < count_ && begin_[i] < index; ++i) {
+      const int above = begin_[i];
+      const Block factor = block(i).lazyProduct(factors.pivot(above));
+      block(i) = factor;
+      const SingleMatrix<Size>& upper = factors.upper;
+      for (std::int64_t j = upper.offsets[above]; j < upper.offsets[above + 1]; ++j) {
+        const int place = place_[upper.columns[j]];
+        if (place >= 0) block(place) -= factor.lazyProduct(factors.above(j));
+      }
+    }
+  }
+  /// Appends the row to the factors and forgets it.
+  void store(Factors& factors, int index) {
+    double size = 0;
+    for (int i = 0; i < count_; ++i) {
+      place_[begin_[i]] = -1;
+      size += block(i).norm() / count_;
+      if (begin_[i] == index) continue;
+      SingleMatrix<Size>& triangle = begin_[i] < index ? factors.lower : factors.upper;
+      triangle.append(begin_[i], blocks_.data() + i * Factors::entries);
+    }
+    const int diagonal =
+        static_cast<int>(std::lower_bound(begin_, begin_ + count_, index) - begin_);
+    const bool is_there = diagonal < count_ && begin_[diagonal] == index;
+    const Block pivot = is_there ? Block(block(diagonal)) : Block::Zero();
+    factors.lower.end_row();
+    factors.upper.end_row();
+    constexpr double shift = 1e-2;  // of the mean block, as in the factorisation with threshold
+    factors.append_pivot(pivot, shift * size);
+  }
+
+ private:
+  const int* begin_ = nullptr;
+  int count_ = 0;
+  std::vector<int> place_;
+  std::vector<double> blocks_;
+
+  Eigen::Map<Block> block(int i) {
+    return Eigen::Map<Block>(blocks_.data() + i * Factors::entries);
+  }
+};
+
+}  // namespace
+
+template <int Size>
+void SingleMatrix<Size>::reserve(int row_count, std::int64_t blocks) {
+  offsets.reserve(row_count + 1);
+  columns.reserve(blocks);
+  values.reserve(blocks * Size * Size + block_padding);
+}
+
+template <int Size>
+void SingleMatrix<Size>::append(int column, const double* block) {
+  columns.push_back(column);
+  for (int i = 0; i < Size * Size; ++i) values.push_back(static_cast<float>(block[i]));
+}
+
+template <int Size>
+void BlockFactors<Size>::append_pivot(const Block& pivot, double shift) {
+  const int row = static_cast<int>(pivots.size()) / entries;
+  // A pivot this far below the shift would blow up what follows; the shift is of the size dropped.
+  constexpr double least_share = 1e-6;
+  Block inverse;
+  Block changed = pivot;
+  if (!invert<Size>(changed, least_share * shift, inverse)) {
+    ++shifted;
+    do {
+      if (!std::isfinite(shift) || !(shift > 0) || !pivot.allFinite()) {
+        throw CaseError(fmt::format("the pivot of block row {} is not finite", row));
+      }
+      changed = pivot + shift * Block::Identity();
+      shift *= 2;
+    } while (!invert<Size>(changed, least_share * shift, inverse));
+  }
+  pivots.insert(pivots.end(), inverse.data(), inverse.data() + entries);
+}
+
+template <int Size>
+void BlockFactors<Size>::finish() {
+  lower.pad();
+  upper.pad();
+  single_pivots_.assign(pivots.begin(), pivots.end());
+  single_pivots_.resize(single_pivots_.size() + block_padding, 0.F);
+  std::vector<double>().swap(pivots);
+}
+
+template <int Size>
+void BlockFactors<Size>::apply(const Eigen::VectorXf& r, Eigen::VectorXf& z) const {
+  solve_unit_lower<Size>(lower.view(), rows(), r.data(), z.data());
+  solve_upper<Size>(upper.view(), single_pivots_.data(), rows(), z.data());
+}
+
+template <int Size>
+BlockFactors<Size> block_ilu0(const BlockMatrix<Size>& matrix) {
+  const int rows = matrix.rows();
+  BlockFactors<Size> factors;
+  std::int64_t below = 0;
+  for (int row = 0; row < rows; ++row) {
+    const auto begin = matrix.columns.begin() + matrix.offsets[row];
+    below += std::lower_bound(begin, matrix.columns.begin() + matrix.offsets[row + 1], row) - begin;
+  }
+  factors.lower.reserve(rows, below);
+  factors.upper.reserve(rows, static_cast<std::int64_t>(matrix.columns.size()) - below);
+  factors.pivots.reserve(static_cast<std::size_t>(rows) * factors.entries);
+  PatternRow<Size> row(rows);
+  for (int index = 0; index < rows; ++index) {
+    row.start(matrix, index);
+    row.eliminate(factors, index);
+    row.store(factors, index);
+  }
+  factors.finish();
+  return factors;
+}
+
+#define STRONGPOINT_INSTANTIATE(size) /* every block size that a solver takes */ \
+  template struct SingleMatrix<size>;                                            \
+  template class BlockFactors<size>;                                             \
+  template BlockFactors<size> block_ilu0(const BlockMatrix<size>&);
+STRONGPOINT_INSTANTIATE(1)
+STRONGPOINT_INSTANTIATE(2)
+STRONGPOINT_INSTANTIATE(3)
+STRONGPOINT_INSTANTIATE(4)
+#undef STRONGPOINT_INSTANTIATE
+
+}  // namespace strongpoint
