@@ -19,7 +19,7 @@ def shared_symbols(file):
 class SimdSymbols(unittest.TestCase):
     def test_kernels_share_nothing_with_other_files(self):
         for path in PATHS:
-            files = list(BUILD.glob(f"methods/CMakeFiles/strongpoint_methods_{path}.dir/**/*.o"))
+            files = list(BUILD.glob(f"*/CMakeFiles/strongpoint_*_{path}.dir/**/*.o"))
             self.assertTrue(files, f"no kernel is compiled for {path}")
             for file in files:
                 for symbol in shared_symbols(file):

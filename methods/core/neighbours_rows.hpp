@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "methods/core/large_array.hpp"
 #include "methods/core/stencils.hpp"
 
 namespace strongpoint {
@@ -57,7 +58,7 @@ class StencilRows {
   };
 
   int queries_, k_;
-  std::vector<int> nodes_;      ///< (queries k)
+  LargeArray<int> nodes_;       ///< (queries k)
   std::vector<Extras> extras_;  ///< (blocks)
 
   void merge_into(Stencils& result) {
