@@ -14,6 +14,7 @@
 #include "methods/core/local_stencil.hpp"
 #include "methods/core/method.hpp"
 #include "methods/core/parallel_errors.hpp"
+#include "methods/core/stencil_batch.hpp"
 
 namespace strongpoint {
 
@@ -30,16 +31,6 @@ concept LocalKernel = requires(const Kernel kernel, const LocalStencil<Dim>& ste
   {kernel.evaluate(stencil, work, offset, derivatives, weights)};
   { kernel.local_matrix(stencil, scaling) } -> std::same_as<Eigen::MatrixXd>;
   { kernel.unsupported(derivatives) } -> std::same_as<std::string>;
-};
-
-/// Some anchors whose stencils a kernel may treat side by side.
-template <int Dim>
-struct StencilBatch {
-  const Sites<Dim>& sites;
-  const Stencils& stencils;
-  const Stencils& points;  ///< evaluation points of each anchor
-  const Derivatives<Dim>& derivatives;
-  std::span<const int> anchors;  ///< none with an empty stencil
 };
 
 /// A kernel that computes many stencils faster than one after the other. `fill_batch` writes the

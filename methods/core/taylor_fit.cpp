@@ -14,6 +14,8 @@ namespace {
 /// Smallest pivot over diagonal of the normal equations that still leaves about eleven digits;
 /// below it the weighted Vandermonde matrix is factorised instead.
 constexpr double pivot_tolerance = 1e-4;
+/// Largest condition, in the 1-norm, of normal equations that are solved side by side.
+constexpr double condition_limit = 1e6;
 /// From this order on the normal equations always lose too many digits.
 constexpr int first_order_by_qr = 5;
 
@@ -117,6 +119,13 @@ void TaylorFit<Dim>::evaluate(const LocalStencil<Dim>& stencil, Workspace& work,
     }
     weights(d, stencil.centre) = (order_of<Dim>(derivatives[d]) == 0 ? 1 : 0) - sum;
   }
+}
+
+template <int Dim>
+void TaylorFit<Dim>::fill_batch(const StencilBatch<Dim>& batch, Workspace& work, Weights& weights,
+                                std::span<LocalOutcome> outcomes) const {
+  if (!TaylorBatch<Dim>::serves(order()) || batch.derivatives.size() == 0) return;
+  work.batch.fill(basis_, *weight_, {pivot_tolerance, condition_limit}, batch, weights, outcomes);
 }
 
 template <int Dim>

@@ -11,6 +11,7 @@
 #include "methods/core/local_solvers.hpp"
 #include "methods/core/monomial_basis.hpp"
 #include "methods/core/stencil_size.hpp"
+#include "methods/core/taylor_batch.hpp"
 #include "methods/core/weight_function.hpp"
 
 namespace strongpoint {
@@ -31,6 +32,7 @@ class TaylorFit {
     Ldlt normal_equations;
     HouseholderQr qr;
     bool by_qr = false;
+    TaylorBatch<Dim> batch;
   };
 
   /// Throws UsageError when the order is not within 1 to 8.
@@ -45,6 +47,9 @@ class TaylorFit {
   /// Weights (derivatives, n) at `offset` from the centre, all in units of the stencil radius.
   void evaluate(const LocalStencil<Dim>& stencil, Workspace& work, const Point<Dim>& offset,
                 const Derivatives<Dim>& derivatives, Eigen::Map<Eigen::MatrixXd> weights) const;
+  /// Weights of the anchors whose normal equations are well conditioned.
+  void fill_batch(const StencilBatch<Dim>& batch, Workspace& work, Weights& weights,
+                  std::span<LocalOutcome> outcomes) const;
   /// The matrix A of thesis (3.15): rows are projections on the monomials, columns Taylor terms
   /// (with their factorials), scaled as asked.
   Eigen::MatrixXd local_matrix(const LocalStencil<Dim>& stencil, Scaling scaling) const;

@@ -1,0 +1,134 @@
+#pragma once
+
+#include "methods/core/simd/pack.hpp"
+
+namespace strongpoint::STRONGPOINT_SIMD_PATH {
+
+/// Number of monomials in Dim variables of degree 1 to `degree`.
+template <int Dim>
+constexpr int monomials_up_to(int degree) {
+  int count = 1;
+  for (int c = 1; c <= Dim; ++c) count = count * (degree + c) / c;
+  return count - 1;
+}
+
+/// Monomials of degree 1 to Degree, ordered as Derivatives::between_orders: by degree, then x
+/// before y before z.
+template <int Dim, int Degree>
+struct MonomialTable {
+  static constexpr int size = monomials_up_to<Dim>(Degree);
+  int power[size][Dim] = {};
+  int axis[size] = {};    ///< the first variable it holds
+  int parent[size] = {};  ///< the monomial divided by that variable, -1 for the constant
+
+  constexpr MonomialTable() {
+    int next = 0;
+    for (int degree = 1; degree <= Degree; ++degree) {
+      for (int code = 0; code <= degree * (degree + 1) + degree; ++code) {
+        // In 3D the power of x falls with code / (degree + 1), that of z rises with the rest.
+        const int left = Dim == 3 ? code / (degree + 1) : code;
+        const int last = Dim == 3 ? code % (degree + 1) : left;
+        if (Dim == 1 ? code > 0 : (left > degree || last > left)) continue;
+        power[next][0] = Dim == 1 ? degree : degree - left;
+        if (Dim == 2) power[next][Dim - 1] = left;
+        if (Dim == 3) {
+          power[next][Dim - 2] = left - last;
+          power[next][Dim - 1] = last;
+        }
+        ++next;
+      }
+    }
+    for (int a = 0; a < size; ++a) {
+      while (power[a][axis[a]] == 0) ++axis[a];
+      parent[a] = -1;
+      for (int b = 0; b < a; ++b) {
+        if (holds_product(a, b, axis[a])) parent[a] = b;
+      }
+    }
+  }
+
+  /// Place of the product of monomials a and b.
+  constexpr int product(int a, int b) const {
+    for (int place = 0; place < size; ++place) {
+      bool same = true;
+      for (int c = 0; c < Dim; ++c) same = same && power[place][c] == power[a][c] + power[b][c];
+      if (same) return place;
+    }
+    return -1;
+  }
+
+ private:
+  constexpr bool holds_product(int a, int b, int variable) const {
+    for (int c = 0; c < Dim; ++c) {
+      if (power[a][c] != power[b][c] + (c == variable ? 1 : 0)) return false;
+    }
+    return true;
+  }
+};
+
+/// The sums that make up the moment matrix of monomials up to a degree: entries (a, b) with the
+/// same product of monomials are the same sum.
+template <int Dim, int Degree>
+struct MomentTable {
+  static constexpr int terms = monomials_up_to<Dim>(Degree);
+  static constexpr int size = monomials_up_to<Dim>(2 * Degree) - Dim;  ///< of degree 2 and more
+  int first[size] = {};  ///< sum s is over first[s] times second[s]
+  int second[size] = {};
+  int sum[terms * (terms + 1) / 2] = {};  ///< of each entry of the lower triangle, row after row
+
+  constexpr MomentTable() {
+    const MonomialTable<Dim, 2 * Degree> all_products;
+    for (int a = 0, entry = 0; a < terms; ++a) {
+      for (int b = 0; b <= a; ++b, ++entry) {
+        const int place = all_products.product(a, b) - Dim;
+        sum[entry] = place;
+        first[place] = a;
+        second[place] = b;
+      }
+    }
+  }
+};
+
+template <int Dim, int Degree>
+inline constexpr MonomialTable<Dim, Degree> monomial_table{};
+template <int Dim, int Degree>
+inline constexpr MomentTable<Dim, Degree> moment_table{};
+
+/// The monomials of degree 1 to Degree at z.
+template <int Dim, int Degree>
+[[gnu::always_inline]] inline void evaluate_monomials(const Pack* z, Pack* basis) {
+  constexpr int terms = monomials_up_to<Dim>(Degree);
+#pragma GCC unroll 64
+  for (int a = 0; a < terms; ++a) {
+    const int axis = monomial_table<Dim, Degree>.axis[a];
+    const int parent = monomial_table<Dim, Degree>.parent[a];
+    basis[a] = parent < 0 ? z[axis] : basis[parent] * z[axis];
+  }
+}
+
+/// The moment matrix sum_j w_j b_j b_j^T (lower triangle, row after row) of nodes 1 to n - 1, where
+/// b holds the monomials; `weighted` (terms, n) gets w_j b_j.
+template <int Dim, int Degree>
+void sum_moments(const Pack* z, const Pack* w, int n, Pack* weighted, Pack* moments) {
+  using Table = MomentTable<Dim, Degree>;
+  constexpr const Table& table = moment_table<Dim, Degree>;
+  Pack sums[Table::size];
+  for (int s = 0; s < Table::size; ++s) sums[s] = all(0);
+  for (int j = 1; j < n; ++j) {
+    Pack basis[Table::terms];
+    evaluate_monomials<Dim, Degree>(z + static_cast<long>(j) * Dim, basis);
+    Pack* const row = weighted + static_cast<long>(j) * Table::terms;
+#pragma GCC unroll 64
+    for (int a = 0; a < Table::terms; ++a) row[a] = w[j] * basis[a];
+#pragma GCC unroll 128
+    for (int s = 0; s < Table::size; ++s) {
+      sums[s] = sums[s] + row[table.first[s]] * basis[table.second[s]];
+    }
+  }
+#pragma GCC unroll 256
+  for (int entry = 0; entry < Table::terms * (Table::terms + 1) / 2; ++entry) {
+    moments[entry] = sums[table.sum[entry]];
+  }
+}
+
+}  // namespace strongpoint::STRONGPOINT_SIMD_PATH

@@ -1,0 +1,232 @@
+#include "methods/core/simd/taylor_kernel.hpp"
+
+#include "methods/core/simd/lane_gather.hpp"
+#include "methods/core/simd/lane_ldlt.hpp"
+#include "methods/core/simd/lane_monomials.hpp"
+#include "methods/core/simd/lane_scatter.hpp"
+
+namespace strongpoint::STRONGPOINT_SIMD_PATH {
+namespace {
+
+/// One group of anchors on its way.
+template <int Dim, int Order>
+class Group {
+ public:
+  static constexpr int terms = monomials_up_to<Dim>(Order);
+
+  Group(const TaylorTask& task, int first)
+      : task_(task), table_(task.gathered.table), size_(table_.size), first_(first) {
+    const long place = first / lanes;
+    z_ = reinterpret_cast<const Pack*>(task.gathered.z) + place * size_ * Dim;
+    squared_ = reinterpret_cast<const Pack*>(task.squared) + place * size_;
+    radius_ = load(task.gathered.radius + first);
+    weighted_ = reinterpret_cast<Pack*>(task.scratch);
+    rows_ = weighted_ + static_cast<long>(size_) * terms;
+    solutions_ = rows_ + static_cast<long>(size_) * task.derivatives.count;
+  }
+
+  /// Bits of the lanes whose weights were written.
+  unsigned run() {
+    unsigned good = factorise() & ~task_.gathered.faulty[first_ / lanes];
+    for (int lane = table_.count - first_; lane < lanes; ++lane) good &= ~(1U << lane);
+    if (good == 0) return 0;
+    scale_orders();
+    long most = 0;
+    for (int lane = 0; lane < lanes; ++lane) {
+      if ((good >> lane & 1U) != 0) most = points_of(lane) > most ? points_of(lane) : most;
+    }
+    unsigned failed = 0;
+    for (long p = 0; p < most; ++p) {
+      unsigned served = good;
+      for (int lane = 0; lane < lanes; ++lane) {
+        if (points_of(lane) <= p) served &= ~(1U << lane);
+      }
+      failed |= serve(p, served);
+    }
+    return good & ~failed;
+  }
+
+ private:
+  static constexpr int highest_order = Order;
+
+  const TaylorTask& task_;
+  const StencilTable& table_;
+  int size_;
+  int first_;
+  const Pack* z_;
+  const Pack* squared_;
+  Pack radius_;
+  Pack* weighted_;   ///< (terms, n) T^2 times the monomials
+  Pack* rows_;       ///< (D, n) weights
+  Pack* solutions_;  ///< (terms, D) of the transposed systems
+  Pack inverse_[terms * (terms + 1) / 2];
+  Pack order_factor_[highest_order + 1];  ///< R^-order
+
+  int anchor(int lane) const {
+    return table_.chosen[first_ + lane < table_.count ? first_ + lane : table_.count - 1];
+  }
+  long points_of(int lane) const {
+    const std::int64_t* const offsets = task_.points.offsets + anchor(lane);
+    return offsets[1] - offsets[0];
+  }
+
+  /// Bits of the lanes whose moment matrices are well conditioned.
+  unsigned factorise() {
+    double size[lanes];
+    for (int lane = 0; lane < lanes; ++lane) {
+      const std::int64_t* const offsets = table_.offsets + anchor(lane);
+      size[lane] = static_cast<double>(offsets[1] - offsets[0]);
+    }
+    const Pack sizes = load(size);
+    Pack* const weights = rows_;  // free until the solutions are known
+    for (int j = 1; j < size_; ++j) {
+      weights[j] = choose(less(all(j), sizes), squared_[j], all(0));
+    }
+    Pack moments[terms * (terms + 1) / 2];
+    sum_moments<Dim, Order>(z_, weights, size_, weighted_, moments);
+    const Pack norm = norm_of_symmetric<terms>(moments);
+    const unsigned good = factorise_ldlt<terms>(moments, task_.least_pivot);
+    invert_ldlt<terms>(moments, inverse_);
+    return good & less(norm * norm_of_symmetric<terms>(inverse_), all(task_.condition_limit));
+  }
+
+  void scale_orders() {
+    const Pack inverse = all(1) / radius_;
+    order_factor_[0] = all(1);
+    for (int q = 1; q <= highest_order; ++q) order_factor_[q] = order_factor_[q - 1] * inverse;
+  }
+
+  Pack inverse_entry(int i, int j) const {
+    return inverse_[i > j ? triangle(i, j) : triangle(j, i)];
+  }
+
+  /// The monomials, the constant first, at the p-th point of each lane, relative to the anchor and
+  /// over R. Lanes without one get their last.
+  void evaluate_at(long p, Pack* monomials) const {
+    const double* place[lanes];
+    const double* origin[lanes];
+    for (int lane = 0; lane < lanes; ++lane) {
+      const int a = anchor(lane);
+      const long count = points_of(lane);
+      const std::int64_t list = task_.points.offsets[a];
+      origin[lane] = table_.anchors + static_cast<long>(a) * Dim;
+      place[lane] =
+          count == 0
+              ? origin[lane]
+              : task_.points.points +
+                    static_cast<long>(task_.points.ids[list + (p < count ? p : count - 1)]) * Dim;
+    }
+    Pack from[Dim];
+    Pack at[Dim];
+    load_nodes<Dim>(place, at);
+    load_nodes<Dim>(origin, from);
+    for (int c = 0; c < Dim; ++c) at[c] = (at[c] - from[c]) / radius_;
+    monomials[0] = all(1);
+    evaluate_monomials<Dim, Order>(at, monomials + 1);
+  }
+
+  /// Solves for every derivative: columns of the inverse, combined as the point asks.
+  void solve(long p) {
+    Pack monomials[terms + 1];
+    evaluate_at(p, monomials);
+    for (int d = 0; d < task_.derivatives.count; ++d) {
+      const double* const factors = task_.derivatives.factors + static_cast<long>(d) * terms;
+      const int* const powers = task_.derivatives.powers + static_cast<long>(d) * terms;
+      Pack* const solution = solutions_ + static_cast<long>(d) * terms;
+      const Pack scale = order_factor_[task_.derivatives.order[d]];
+      for (int i = 0; i < terms; ++i) solution[i] = all(0);
+      for (int a = 0; a < terms; ++a) {
+        if (factors[a] == 0) continue;
+        const Pack value = all(factors[a]) * monomials[powers[a] + 1];
+        if (less(all(0), abs(value)) == 0) continue;
+        for (int i = 0; i < terms; ++i) solution[i] = solution[i] + inverse_entry(i, a) * value;
+      }
+      for (int i = 0; i < terms; ++i) solution[i] = solution[i] * scale;
+    }
+  }
+
+  /// Writes the weights of the p-th point of some lanes; returns the lanes in which they are not
+  /// finite.
+  unsigned serve(long p, unsigned served) {
+    solve(p);
+    const int count = task_.derivatives.count;
+    Pack check = all(0);
+    for (int d = 0; d < count; ++d) {
+      const Pack* const solution = solutions_ + static_cast<long>(d) * terms;
+      Pack z[terms];
+#pragma GCC unroll 64
+      for (int a = 0; a < terms; ++a) z[a] = solution[a];
+      Pack sum = all(0);
+      for (int j = 1; j < size_; ++j) {
+        const Pack* const row = weighted_ + static_cast<long>(j) * terms;
+        Pack weight = row[0] * z[0];
+#pragma GCC unroll 64
+        for (int a = 1; a < terms; ++a) weight = weight + row[a] * z[a];
+        rows_[static_cast<long>(j) * count + d] = weight;
+        sum = sum + weight;
+      }
+      rows_[d] = (task_.derivatives.order[d] == 0 ? all(1) : all(0)) - sum;
+      check = check + sum * all(0);  // not a number if any weight is not finite
+    }
+    const unsigned finite = less(check, all(1));
+    write(p, served & finite);
+    return served & ~finite;
+  }
+
+  void write(long p, unsigned served) {
+    const int count = task_.derivatives.count;
+    double* to[lanes] = {};
+    int entries[lanes] = {};
+    int least = size_ * count;  // entries that all rows have
+    for (int lane = 0; lane < lanes; ++lane) {
+      if ((served >> lane & 1U) == 0) continue;
+      const int point = task_.points.ids[task_.points.offsets[anchor(lane)] + p];
+      const std::int64_t* const rows = task_.points.rows + point;
+      to[lane] = task_.points.values + rows[0] * count;
+      entries[lane] = static_cast<int>(rows[1] - rows[0]) * count;
+      least = entries[lane] < least ? entries[lane] : least;
+    }
+    scatter_lanes(rows_, least, to, served);
+    for (int lane = 0; lane < lanes; ++lane) {
+      if (entries[lane] <= least) continue;
+      to[lane] += least;
+      scatter_lanes(rows_ + least, entries[lane] - least, to, 1U << lane);
+    }
+  }
+};
+
+template <int Dim, int Order>
+void fit(const TaylorTask& task) {
+  for (int first = 0; first < task.gathered.table.count; first += lanes) {
+    task.done[first / lanes] = Group<Dim, Order>(task, first).run();
+  }
+}
+
+template <int Dim>
+void fit_any_order(const TaylorTask& task) {
+  switch (task.order) {
+    case 1:
+      return fit<Dim, 1>(task);
+    case 2:
+      return fit<Dim, 2>(task);
+    case 3:
+      return fit<Dim, 3>(task);
+    default:
+      if constexpr (Dim < 3) fit<Dim, 4>(task);
+  }
+}
+
+}  // namespace
+
+void fit_taylor(const TaylorTask& task) {
+  switch (task.gathered.dim) {
+    case 1:
+      return fit_any_order<1>(task);
+    case 2:
+      return fit_any_order<2>(task);
+    default:
+      return fit_any_order<3>(task);
+  }
+}
+
+}  // namespace strongpoint::STRONGPOINT_SIMD_PATH

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "methods/core/simd/gather_kernel.hpp"
+
+namespace strongpoint {
+
+/// The derivatives asked for, as kernels read them: d^alpha of monomial a is factor * z^power.
+struct DerivativeTable {
+  int count;              ///< D
+  const int* order;       ///< (D) of differentiation
+  const double* factors;  ///< (terms, D) 0 where the derivative vanishes
+  const int* powers;      ///< (terms, D) place of the monomial that is left; -1 for the constant
+};
+
+/// Where derivatives are evaluated and where their weights go.
+struct PointTable {
+  const double* points;         ///< (Dim, P) coordinates, point after point
+  const std::int64_t* offsets;  ///< (A + 1) of the anchors' lists in `ids`
+  const int* ids;               ///< points of each anchor
+  const std::int64_t* rows;     ///< (P + 1) entries of each point's row of weights
+  double* values;               ///< (D * entries) the weights
+};
+
+/// Taylor fits whose nodes have been gathered: the centre comes first in each stencil.
+struct TaylorTask {
+  GatherTask gathered;
+  int order;               ///< highest degree of the monomials
+  double least_pivot;      ///< over its diagonal entry
+  double condition_limit;  ///< in the 1-norm of the moment matrix
+  const double* squared;   ///< (lane, n, group) T^2; those of centre and padding are not read
+  DerivativeTable derivatives;
+  PointTable points;
+  double* scratch;  ///< at a cache line, taylor_scratch numbers
+  unsigned* done;   ///< (group) bits of the lanes whose weights were written
+};
+
+/// Numbers of scratch that a Taylor task takes: n nodes at most, m monomials, D derivatives.
+inline std::size_t taylor_scratch(std::size_t n, std::size_t m, std::size_t derivatives,
+                                  std::size_t lanes) {
+  return lanes * (n * m + n * derivatives + m * derivatives);
+}
+
+/// Factorises the moment matrices and writes the weights of all points of anchors whose systems are
+/// well conditioned. Served are orders 1 to 4 in 1D and 2D, 1 to 3 in 3D.
+STRONGPOINT_SIMD_KERNEL(fit_taylor, TaylorTask);
+
+}  // namespace strongpoint
