@@ -14,8 +14,9 @@ namespace {
 /// Smallest pivot over diagonal of the normal equations that still leaves about eleven digits;
 /// below it the weighted Vandermonde matrix is factorised instead.
 constexpr double pivot_tolerance = 1e-4;
-/// Largest condition, in the 1-norm, of normal equations that are solved side by side.
-constexpr double condition_limit = 1e6;
+/// Limits of the normal equations that are solved side by side and refined: half the digits of the
+/// factor are left, which one step of refinement makes full.
+constexpr TaylorLimits batch_limits{1e-7, 1e8};
 /// From this order on the normal equations always lose too many digits.
 constexpr int first_order_by_qr = 5;
 
@@ -125,7 +126,7 @@ template <int Dim>
 void TaylorFit<Dim>::fill_batch(const StencilBatch<Dim>& batch, Workspace& work, Weights& weights,
                                 std::span<LocalOutcome> outcomes) const {
   if (!TaylorBatch<Dim>::serves(order()) || batch.derivatives.size() == 0) return;
-  work.batch.fill(basis_, *weight_, {pivot_tolerance, condition_limit}, batch, weights, outcomes);
+  work.batch.fill(basis_, *weight_, batch_limits, batch, weights, outcomes);
 }
 
 template <int Dim>

@@ -8,6 +8,9 @@
 namespace strongpoint::STRONGPOINT_SIMD_PATH {
 namespace {
 
+/// The condition up to which eleven digits and more are left without refinement.
+constexpr double largest_unrefined = 1e3;
+
 /// One group of anchors on its way.
 template <int Dim, int Order>
 class Group {
@@ -22,7 +25,6 @@ class Group {
     radius_ = load(task.gathered.radius + first);
     weighted_ = reinterpret_cast<Pack*>(task.scratch);
     rows_ = weighted_ + static_cast<long>(size_) * terms;
-    solutions_ = rows_ + static_cast<long>(size_) * task.derivatives.count;
   }
 
   /// Bits of the lanes whose weights were written.
@@ -56,10 +58,10 @@ class Group {
   const Pack* z_;
   const Pack* squared_;
   Pack radius_;
-  Pack* weighted_;   ///< (terms, n) T^2 times the monomials
-  Pack* rows_;       ///< (D, n) weights
-  Pack* solutions_;  ///< (terms, D) of the transposed systems
+  Pack* weighted_;  ///< (terms, n) T^2 times the monomials
+  Pack* rows_;      ///< (D, n) weights
   Pack inverse_[terms * (terms + 1) / 2];
+  unsigned delicate_;                     ///< lanes whose solutions are refined
   Pack order_factor_[highest_order + 1];  ///< R^-order
 
   int anchor(int lane) const {
@@ -87,7 +89,9 @@ class Group {
     const Pack norm = norm_of_symmetric<terms>(moments);
     const unsigned good = factorise_ldlt<terms>(moments, task_.least_pivot);
     invert_ldlt<terms>(moments, inverse_);
-    return good & less(norm * norm_of_symmetric<terms>(inverse_), all(task_.condition_limit));
+    const Pack condition = norm * norm_of_symmetric<terms>(inverse_);
+    delicate_ = less(all(largest_unrefined), condition);
+    return good & less(condition, all(task_.condition_limit));
   }
 
   void scale_orders() {
@@ -125,48 +129,88 @@ class Group {
     evaluate_monomials<Dim, Order>(at, monomials + 1);
   }
 
-  /// Solves for every derivative: columns of the inverse, combined as the point asks.
-  void solve(long p) {
-    Pack monomials[terms + 1];
-    evaluate_at(p, monomials);
-    for (int d = 0; d < task_.derivatives.count; ++d) {
-      const double* const factors = task_.derivatives.factors + static_cast<long>(d) * terms;
-      const int* const powers = task_.derivatives.powers + static_cast<long>(d) * terms;
-      Pack* const solution = solutions_ + static_cast<long>(d) * terms;
-      const Pack scale = order_factor_[task_.derivatives.order[d]];
-      for (int i = 0; i < terms; ++i) solution[i] = all(0);
-      for (int a = 0; a < terms; ++a) {
-        if (factors[a] == 0) continue;
-        const Pack value = all(factors[a]) * monomials[powers[a] + 1];
-        if (less(all(0), abs(value)) == 0) continue;
-        for (int i = 0; i < terms; ++i) solution[i] = solution[i] + inverse_entry(i, a) * value;
-      }
-      for (int i = 0; i < terms; ++i) solution[i] = solution[i] * scale;
+  /// A derivative of all monomials.
+  void differentiate(int d, const Pack* monomials, Pack* result) const {
+    const double* const factors = task_.derivatives.factors + static_cast<long>(d) * terms;
+    const int* const powers = task_.derivatives.powers + static_cast<long>(d) * terms;
+    for (int a = 0; a < terms; ++a) {
+      result[a] = factors[a] == 0 ? all(0) : all(factors[a]) * monomials[powers[a] + 1];
     }
+  }
+
+  /// The inverse times a right-hand side, most of which is zero at an anchor.
+  void by_inverse(const Pack* right_side, Pack* solution) const {
+    for (int i = 0; i < terms; ++i) solution[i] = all(0);
+    for (int a = 0; a < terms; ++a) {
+      if (less(all(0), abs(right_side[a])) == 0) continue;
+      for (int i = 0; i < terms; ++i) {
+        solution[i] = solution[i] + inverse_entry(i, a) * right_side[a];
+      }
+    }
+  }
+
+  /// T^2 times the Taylor terms of node j, combined.
+  [[gnu::always_inline]] Pack combine(int j, const Pack* solution) const {
+    const Pack* const row = weighted_ + static_cast<long>(j) * terms;
+    Pack weight = row[0] * solution[0];
+#pragma GCC unroll 64
+    for (int a = 1; a < terms; ++a) weight = weight + row[a] * solution[a];
+    return weight;
+  }
+
+  Pack& weight(int d, int j) { return rows_[static_cast<long>(j) * task_.derivatives.count + d]; }
+
+  /// Fills a derivative's row of weights from its solution.
+  void weigh(int d, const Pack* solution) {
+    Pack z[terms];
+#pragma GCC unroll 64
+    for (int a = 0; a < terms; ++a) z[a] = solution[a];
+    Pack centre = task_.derivatives.order[d] == 0 ? all(1) : all(0);
+    for (int j = 1; j < size_; ++j) {
+      const Pack found = combine(j, z);
+      weight(d, j) = found;
+      centre = centre - found;
+    }
+    rows_[d] = centre;
+  }
+
+  /// Corrects a row by what it leaves of the right-hand side; neither the rounding of the moment
+  /// matrix nor that of the row counts any longer. Source: Bjorck 1987 (corrected seminormal
+  /// equations).
+  void refine(int d, const Pack* right_side) {
+    Pack residual[terms];
+    Pack correction[terms];
+    for (int a = 0; a < terms; ++a) residual[a] = right_side[a];
+    for (int j = 1; j < size_; ++j) {
+      Pack basis[terms];
+      evaluate_monomials<Dim, Order>(z_ + static_cast<long>(j) * Dim, basis);
+      for (int a = 0; a < terms; ++a) residual[a] = residual[a] - basis[a] * weight(d, j);
+    }
+    by_inverse(residual, correction);
+    Pack centre = task_.derivatives.order[d] == 0 ? all(1) : all(0);
+    for (int j = 1; j < size_; ++j) {
+      weight(d, j) = weight(d, j) + choose(delicate_, combine(j, correction), all(0));
+      centre = centre - weight(d, j);
+    }
+    rows_[d] = centre;
   }
 
   /// Writes the weights of the p-th point of some lanes; returns the lanes in which they are not
   /// finite.
   unsigned serve(long p, unsigned served) {
-    solve(p);
-    const int count = task_.derivatives.count;
+    Pack monomials[terms + 1];
+    evaluate_at(p, monomials);
     Pack check = all(0);
-    for (int d = 0; d < count; ++d) {
-      const Pack* const solution = solutions_ + static_cast<long>(d) * terms;
-      Pack z[terms];
-#pragma GCC unroll 64
-      for (int a = 0; a < terms; ++a) z[a] = solution[a];
-      Pack sum = all(0);
-      for (int j = 1; j < size_; ++j) {
-        const Pack* const row = weighted_ + static_cast<long>(j) * terms;
-        Pack weight = row[0] * z[0];
-#pragma GCC unroll 64
-        for (int a = 1; a < terms; ++a) weight = weight + row[a] * z[a];
-        rows_[static_cast<long>(j) * count + d] = weight;
-        sum = sum + weight;
-      }
-      rows_[d] = (task_.derivatives.order[d] == 0 ? all(1) : all(0)) - sum;
-      check = check + sum * all(0);  // not a number if any weight is not finite
+    for (int d = 0; d < task_.derivatives.count; ++d) {
+      Pack right_side[terms];
+      Pack solution[terms];
+      differentiate(d, monomials, right_side);
+      const Pack scale = order_factor_[task_.derivatives.order[d]];
+      for (int i = 0; i < terms; ++i) right_side[i] = right_side[i] * scale;
+      by_inverse(right_side, solution);
+      weigh(d, solution);
+      if (delicate_ != 0) refine(d, right_side);
+      check = check + rows_[d] * all(0);  // not a number if any weight is not finite
     }
     const unsigned finite = less(check, all(1));
     write(p, served & finite);

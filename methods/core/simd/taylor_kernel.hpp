@@ -37,7 +37,7 @@ struct TaylorTask {
 /// Numbers of scratch that a Taylor task takes: n nodes at most, m monomials, D derivatives.
 inline std::size_t taylor_scratch(std::size_t n, std::size_t m, std::size_t derivatives,
                                   std::size_t lanes) {
-  return lanes * (n * m + n * derivatives + m * derivatives);
+  return lanes * n * (m + derivatives);
 }
 
 /// Factorises the moment matrices and writes the weights of all points of anchors whose systems are
