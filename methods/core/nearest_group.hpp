@@ -13,7 +13,7 @@ inline constexpr int group_k_max = 96;
 /// What became of a query of a group.
 enum class GroupOutcome {
   found,      ///< its row is written
-  ambiguous,  ///< distances too close to tell their order: see `GroupRoom::sorted`
+  ambiguous,  ///< distances too close to tell their order
   few,        ///< less than k nodes are sure to be known
   many        ///< more nodes than there is room for
 };
@@ -24,17 +24,19 @@ struct GroupRoom {
   float squares[group_size][survivors + 32];  ///< their squared distances over reach^2
   int ids[group_size][survivors + 32];        ///< their node ids
   int found[group_size];                      ///< how many of them
-  int sorted[group_size][survivors];          ///< ids by distance, where ambiguous
-  int candidates[group_size];                 ///< of those, how many may belong to the k
+  int sorted[group_size][survivors];          ///< ids by distance, of ambiguous queries
+  int candidates[group_size];                 ///< of those, how many may be wanted
   GroupOutcome outcome[group_size];
-  double kth_sum;  ///< of the k-th squared distances of those found or ambiguous
-  int retries;     ///< queries with less than k nodes within the radius
+  float limit;  ///< square over reach^2 that the next query should take
+  int retries;  ///< queries with less than k nodes within the limit
 };
 
 /// The k nodes nearest to each of some queries that lie together. Everything within `reach` of the
 /// box around them is listed once, in single precision about the middle of the box, and each query
-/// sorts what lies within `radius`. The order is certified: where distances (or the k-th and what
-/// follows) differ by less than the error bound the query is left to the caller as ambiguous.
+/// sorts what lies within a limit
+/// that follows the number of nodes which the last query found there. The order is certified: where
+/// distances (or the k-th and what follows) differ by less than the error bound the query is left
+/// to the caller as ambiguous.
 struct NearestGroup {
   int dim;
   int k;                     ///< at most `group_k_max` and the number of nodes
@@ -48,12 +50,28 @@ struct NearestGroup {
   double middle[3];          ///< of the box around the queries
   double half[3];            ///< its half widths
   double reach;              ///< of the list, positive
-  double radius;             ///< of each query, at most `reach`
+  float limit;               ///< squared distance over reach^2 to begin with, at most 1
+  float target;              ///< nodes that should lie within the limit
+  float gain;                ///< how fast the limit follows
   float* list[3];            ///< room for all nodes of the ranges and 16 more, each
   int* list_ids;             ///< likewise
   GroupRoom* room;
 };
 
 STRONGPOINT_SIMD_KERNEL(nearest_of_group, NearestGroup);
+
+/// Sorts the candidates of ambiguous queries by (distance, node id), the distances as exact as
+/// `squared_distance` has them, and sets their number to k and what ties with the k-th.
+struct ExactOrder {
+  int dim;
+  int k;
+  const double* nodes;       ///< (Dim, N) coordinates, node after node
+  const double* queries[3];  ///< (query_count) coordinates
+  int query_count;
+  double tie_factor;  ///< bound of ties over the k-th squared distance; 1: ties are cut
+  GroupRoom* room;
+};
+
+STRONGPOINT_SIMD_KERNEL(order_exactly, ExactOrder);
 
 }  // namespace strongpoint

@@ -78,6 +78,7 @@ class GridEngine {
   Point<Dim> low_, high_;        ///< corners of the nodes' bounding box
   Cell counts_;                  ///< cells along each direction
   double edge_ = 1;              ///< of a cell
+  double per_edge_ = 1;          ///< 1 / edge_
   double slack_ = 0;             ///< bounds the round-off in telling the cell of a node
   std::vector<int> cell_start_;  ///< (cells + 1) into the arrays below
   int directions_ = 0;           ///< in which the cloud is thicker than a cell
@@ -90,7 +91,7 @@ class GridEngine {
   Cell cell_of(const Point<Dim>& x) const {
     Cell cell;
     for (int c = 0; c < Dim; ++c) {
-      const double position = std::floor((x[c] - low_[c]) / edge_);
+      const double position = (x[c] - low_[c]) * per_edge_;
       cell[c] = static_cast<int>(std::clamp(position, 0.0, counts_[c] - 1.0));
     }
     return cell;
@@ -130,7 +131,7 @@ void GridEngine<Dim>::choose_cells(const Points<Dim>& nodes) {
   high_ = nodes.rowwise().maxCoeff();
   const Point<Dim> extent = high_ - low_;
   std::array<bool, Dim> thin;
-  for (int c = 0; c < Dim; ++c) thin[c] = !(extent[c] > 0);
+  for (int c = 0; c < Dim; ++c) thin[c] = !(extent[c] > 1e-250);
   // A direction thinner than a cell gets one layer, and the cells then spread over the others.
   for (bool again = true; again;) {
     double log_measure = 0;
@@ -153,6 +154,7 @@ void GridEngine<Dim>::choose_cells(const Points<Dim>& nodes) {
   }
   directions_ = Dim - static_cast<int>(std::count(thin.begin(), thin.end(), true));
   for (int c = 0; c < Dim; ++c) counts_[c] = thin[c] ? 1 : static_cast<int>(extent[c] / edge_) + 1;
+  per_edge_ = 1 / edge_;
   slack_ = 8 * std::numeric_limits<double>::epsilon() *
            (low_.cwiseAbs().maxCoeff() + high_.cwiseAbs().maxCoeff());
 }

@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <vector>
 
+#include "methods/core/large_array.hpp"
 #include "methods/core/nearest_group.hpp"
 #include "methods/core/neighbours_collectors.hpp"
 #include "methods/core/neighbours_rows.hpp"
@@ -17,9 +19,9 @@ namespace strongpoint {
 /// together is stored together.
 template <int Dim>
 struct SortedNodes {
-  static constexpr int padding = 8;                  ///< entries behind the last node
-  std::array<std::vector<double>, Dim> coordinates;  ///< (N + padding) each
-  std::vector<int> ids;                              ///< (N + padding)
+  static constexpr int padding = 8;                 ///< entries behind the last node
+  std::array<LargeArray<double>, Dim> coordinates;  ///< (N + padding) each
+  std::vector<int> ids;                             ///< (N + padding)
 
   int size() const { return ids.empty() ? 0 : static_cast<int>(ids.size()) - padding; }
   /// Takes the nodes in the order of `order`.
@@ -29,6 +31,7 @@ struct SortedNodes {
     for (int c = 0; c < Dim; ++c) {
       coordinates[c].resize(count + padding);
       for (std::size_t i = 0; i < count; ++i) coordinates[c][i] = nodes(c, ids[i]);
+      for (std::size_t i = count; i < count + padding; ++i) coordinates[c][i] = 0;
     }
     ids.resize(count + padding);
   }
@@ -76,23 +79,19 @@ class QueryOrder {
     for (int q = 0; q < count; ++q) queries_[next[group[q]]++] = q;
   }
 
-  /// Puts the queries of group g into a list.
+  /// The queries of group g; `room` is used where they have to be listed.
   template <class Engine>
-  void list(const Engine& engine, int g, std::vector<int>& found) const {
-    found.clear();
-    if (!starts_.empty()) {
-      found.assign(queries_.begin() + starts_[g], queries_.begin() + starts_[g + 1]);
-      return;
-    }
+  std::span<const int> of_group(const Engine& engine, int g, std::vector<int>& room) const {
+    if (!starts_.empty()) return {queries_.data() + starts_[g], queries_.data() + starts_[g + 1]};
     const auto [begin, end] = engine.group(g);
-    for (int i = begin; i < end; ++i) {
-      const int node = engine.sorted().ids[i];
-      if (query_of_.empty()) {
-        found.push_back(node);
-      } else if (query_of_[node] >= 0) {
-        found.push_back(query_of_[node]);
-      }
+    const std::span<const int> nodes{engine.sorted().ids.data() + begin,
+                                     engine.sorted().ids.data() + end};
+    if (query_of_.empty()) return nodes;
+    room.clear();
+    for (int node : nodes) {
+      if (query_of_[node] >= 0) room.push_back(query_of_[node]);
     }
+    return room;
   }
 
  private:
@@ -130,15 +129,16 @@ class GroupWorker {
         tie_factor_(ties == Ties::keep ? (1 + tie_tolerance) * (1 + tie_tolerance) : 1.0),
         collector_(k, ties),
         rows_(rows),
+        target_(k + 1.5 * std::sqrt(k)),
         room_(std::make_unique<GroupRoom>()) {}
 
   /// Forgets what earlier groups told of the distances to be expected.
   void start_block(int block) {
     block_ = block;
-    kth_ = 0;
+    square_ = 0;
   }
   /// Treats queries that lie in group g.
-  void search(int g, const std::vector<int>& ids) {
+  void search(int g, std::span<const int> ids) {
     for (std::size_t first = 0; first < ids.size(); first += group_size) {
       count_ = static_cast<int>(std::min<std::size_t>(group_size, ids.size() - first));
       for (int i = 0; i < count_; ++i) take(i, ids[first + i]);
@@ -157,18 +157,18 @@ class GroupWorker {
   NearestCollector collector_;
   StencilRows& rows_;
   int block_ = 0;
-  double kth_ = 0;       ///< squared distance of the k-th node to be expected, 0: not known
-  double margin_ = 1.4;  ///< by which it is exceeded, adapted to what the cloud wants
-  int count_ = 0;        ///< queries at hand
+  double square_ = 0;  ///< squared distance to gather nodes within, 0: not known
+  double target_;      ///< nodes that should be found there, adapted to what the cloud wants
+  int count_ = 0;      ///< queries at hand
   int ids_[group_size];
   int* row_[group_size];
   double x_[Dim][group_size];
   Point<Dim> low_, high_;  ///< of the box around them
+  double reach_ = 0;       ///< of the list around that box
   std::vector<int> ranges_;
   std::array<std::vector<float>, Dim> list_;
   std::vector<int> list_ids_;
   std::unique_ptr<GroupRoom> room_;
-  std::vector<Candidate> candidates_;
   std::vector<int> stencil_;
 
   void take(int place, int query) {
@@ -177,12 +177,14 @@ class GroupWorker {
     for (int c = 0; c < Dim; ++c) x_[c][place] = queries_(c, query);
   }
   void search_chunk(int g) {
-    if (kth_ == 0) kth_ = engine_.expected_square(g, k_);
-    double radius = std::sqrt(kth_ * margin_);
+    if (square_ == 0) square_ = engine_.expected_square(g, static_cast<int>(target_));
     for (int attempt = 0; attempt < attempts && count_ > 0; ++attempt) {
-      if (!search_within(radius)) break;
-      const GroupOutcome lacking = sift();
-      radius *= lacking == GroupOutcome::few ? 1.5 : 0.7;
+      if (!search_within(std::sqrt(square_))) break;
+      if (sift() == GroupOutcome::few) {
+        if (count_ > 0) square_ *= 1.5;
+      } else {
+        square_ *= 0.6;
+      }
     }
     for (int i = 0; i < count_; ++i) search_alone(ids_[i]);
   }
@@ -190,7 +192,6 @@ class GroupWorker {
   bool search_within(double radius);
   /// Writes what is settled and keeps the other queries; returns what most of them lack.
   GroupOutcome sift();
-  void settle_ambiguous(int place);
   void search_alone(int query) {
     collector_.clear();
     engine_.visit(queries_.col(query), collector_);
@@ -202,13 +203,16 @@ class GroupWorker {
 
 template <int Dim, class Engine>
 bool GroupWorker<Dim, Engine>::search_within(double radius) {
-  const double reach = 1.1 * radius;
+  reach_ = 1.15 * radius;
+  const double reach = reach_;
   NearestGroup task{};
   double widest = 0;
   for (int c = 0; c < Dim; ++c) {
-    const auto [low, high] = std::minmax_element(x_[c], x_[c] + count_);
-    low_[c] = *low;
-    high_[c] = *high;
+    low_[c] = high_[c] = x_[c][0];
+    for (int i = 1; i < count_; ++i) {
+      low_[c] = std::min(low_[c], x_[c][i]);
+      high_[c] = std::max(high_[c], x_[c][i]);
+    }
     task.middle[c] = low_[c] + (high_[c] - low_[c]) / 2;
     task.half[c] = std::max(high_[c] - task.middle[c], task.middle[c] - low_[c]);
     widest = std::max(widest, task.half[c]);
@@ -235,10 +239,21 @@ bool GroupWorker<Dim, Engine>::search_within(double radius) {
   task.query_count = count_;
   task.rows = row_;
   task.reach = reach;
-  task.radius = radius;
+  task.limit = 1 / (1.15F * 1.15F);
+  task.target = static_cast<float>(target_);
+  task.gain = 1.2F / Dim;
   task.list_ids = list_ids_.data();
   task.room = room_.get();
   nearest_of_group(task);
+  ExactOrder rest{};
+  rest.dim = Dim;
+  rest.k = k_;
+  rest.nodes = nodes_.data();
+  for (int c = 0; c < Dim; ++c) rest.queries[c] = x_[c];
+  rest.query_count = count_;
+  rest.tie_factor = tie_factor_;
+  rest.room = room_.get();
+  order_exactly(rest);
   return true;
 }
 
@@ -249,7 +264,10 @@ GroupOutcome GroupWorker<Dim, Engine>::sift() {
   const int before = count_;
   for (int i = 0; i < count_; ++i) {
     const GroupOutcome outcome = room_->outcome[i];
-    if (outcome == GroupOutcome::ambiguous) settle_ambiguous(i);
+    if (outcome == GroupOutcome::ambiguous) {
+      rows_.write(block_, ids_[i],
+                  {room_->sorted[i], static_cast<std::size_t>(room_->candidates[i])});
+    }
     if (outcome == GroupOutcome::found || outcome == GroupOutcome::ambiguous) continue;
     if (outcome == GroupOutcome::few) ++few;
     ids_[kept] = ids_[i];
@@ -257,35 +275,12 @@ GroupOutcome GroupWorker<Dim, Engine>::sift() {
     for (int c = 0; c < Dim; ++c) x_[c][kept] = x_[c][i];
     ++kept;
   }
-  const int settled = before - kept;
-  if (settled > 0) kth_ = (kth_ + room_->kth_sum / settled) / 2;
-  // Settles where about one query in fifty has to be gathered again.
-  margin_ = std::clamp(margin_ + 0.02 * (room_->retries - 0.02 * before), 1.05, 3.0);
+  square_ = room_->limit * reach_ * reach_;
+  // Settles where about one query in thirty has to be gathered again.
+  const double wish = target_ + 0.3 * (room_->retries - 0.03 * before);
+  target_ = std::clamp(wish, k_ + 1.0, 2.0 * k_ + 20.0);
   count_ = kept;
-  return 2 * few >= kept ? GroupOutcome::few : GroupOutcome::many;
-}
-
-template <int Dim, class Engine>
-void GroupWorker<Dim, Engine>::settle_ambiguous(int place) {
-  Point<Dim> x;
-  for (int c = 0; c < Dim; ++c) x[c] = x_[c][place];
-  candidates_.clear();
-  for (int i = 0; i < room_->candidates[place]; ++i) {
-    const int node = room_->sorted[place][i];
-    const Candidate candidate{squared_distance<Dim>(x, nodes_.col(node)), node};
-    candidates_.push_back(candidate);
-    std::size_t at = candidates_.size() - 1;
-    for (; at > 0 && candidate < candidates_[at - 1]; --at) candidates_[at] = candidates_[at - 1];
-    candidates_[at] = candidate;
-  }
-  const double bound = candidates_[k_ - 1].squared_distance * tie_factor_;
-  stencil_.clear();
-  for (const Candidate& candidate : candidates_) {
-    const bool is_tied = tie_factor_ > 1 && candidate.squared_distance <= bound;
-    if (stencil_.size() < static_cast<std::size_t>(k_) || is_tied)
-      stencil_.push_back(candidate.node);
-  }
-  rows_.write(block_, ids_[place], stencil_);
+  return kept == 0 || 2 * few >= kept ? GroupOutcome::few : GroupOutcome::many;
 }
 
 /// The k nearest nodes of many queries, group by group in parallel.
@@ -307,8 +302,7 @@ Stencils nearest_in_groups(const Engine& engine, const Points<Dim>& nodes,
         worker.start_block(b);
         const int end = std::min(engine.groups(), (b + 1) * groups_per_block);
         for (int g = b * groups_per_block; g < end; ++g) {
-          order.list(engine, g, ids);
-          worker.search(g, ids);
+          worker.search(g, order.of_group(engine, g, ids));
         }
       });
     }

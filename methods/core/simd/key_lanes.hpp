@@ -16,6 +16,7 @@ using Floats = __m512;
 using Keys = __m512i;
 
 inline Floats load_floats(const float* from) { return _mm512_loadu_ps(from); }
+inline Keys load_keys(const int* from) { return _mm512_loadu_si512(from); }
 inline Floats all_floats(float a) { return _mm512_set1_ps(a); }
 inline Keys all_keys(int a) { return _mm512_set1_epi32(a); }
 /// One bit a lane, set where a is at most b.
@@ -115,6 +116,9 @@ inline Keys compress_order(unsigned bits) {
 }
 
 inline Floats load_floats(const float* from) { return _mm256_loadu_ps(from); }
+inline Keys load_keys(const int* from) {
+  return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
+}
 inline Floats all_floats(float a) { return _mm256_set1_ps(a); }
 inline Keys all_keys(int a) { return _mm256_set1_epi32(a); }
 inline unsigned at_most(Floats a, Floats b) {
@@ -189,6 +193,7 @@ using Floats = float;
 using Keys = int;
 
 inline Floats load_floats(const float* from) { return *from; }
+inline Keys load_keys(const int* from) { return *from; }
 inline Floats all_floats(float a) { return a; }
 inline Keys all_keys(int a) { return a; }
 inline unsigned at_most(Floats a, Floats b) { return a <= b ? 1 : 0; }

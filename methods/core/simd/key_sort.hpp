@@ -10,7 +10,7 @@ namespace strongpoint::STRONGPOINT_SIMD_PATH {
 
 /// Orders lanes at distances `Distance`, `Distance` / 2, ..., 1 within each register.
 template <int Registers, int Distance>
-void merge_within(Keys* v) {
+[[gnu::always_inline]] inline void merge_within(Keys* v) {
   if constexpr (Distance > 0) {
     for (int i = 0; i < Registers; ++i) v[i] = ordered<Distance, Distance>(v[i]);
     merge_within<Registers, Distance / 2>(v);
@@ -19,7 +19,7 @@ void merge_within(Keys* v) {
 
 /// Orders registers `Distance`, `Distance` / 2, ..., 1 apart, lane by lane.
 template <int Registers, int Distance>
-void merge_across(Keys* v) {
+[[gnu::always_inline]] inline void merge_across(Keys* v) {
   if constexpr (Distance > 0) {
     for (int i = 0; i < Registers; ++i) {
       if ((i & Distance) != 0) continue;
@@ -33,7 +33,7 @@ void merge_across(Keys* v) {
 
 /// Sorts runs of `Run` lanes within each register.
 template <int Registers, int Run>
-void sort_within(Keys* v) {
+[[gnu::always_inline]] inline void sort_within(Keys* v) {
   if constexpr (Run > 1) {
     sort_within<Registers, Run / 2>(v);
     for (int i = 0; i < Registers; ++i) v[i] = ordered<Run - 1, Run / 2>(v[i]);
@@ -43,7 +43,7 @@ void sort_within(Keys* v) {
 
 /// Sorts runs of `Run` registers.
 template <int Registers, int Run>
-void sort_across(Keys* v) {
+[[gnu::always_inline]] inline void sort_across(Keys* v) {
   if constexpr (Run > 1) {
     sort_across<Registers, Run / 2>(v);
     for (int first = 0; first < Registers; first += Run) {
@@ -63,7 +63,7 @@ void sort_across(Keys* v) {
 
 /// Sorts the keys of some registers, ascending from lane 0 of the first register on.
 template <int Registers>
-void sort_keys(Keys* v) {
+[[gnu::always_inline]] inline void sort_keys(Keys* v) {
   sort_within<Registers, narrow_lanes>(v);
   sort_across<Registers, Registers>(v);
 }
@@ -71,7 +71,7 @@ void sort_keys(Keys* v) {
 #else
 
 template <int Registers>
-void sort_keys(Keys* v) {
+[[gnu::always_inline]] inline void sort_keys(Keys* v) {
   for (int i = 1; i < Registers; ++i) {
     const Keys key = v[i];
     int place = i;

@@ -95,9 +95,6 @@ void sort_survivors(const NearestGroup& task, int query, float radius, double to
         less_keys(subtract(shift_in(keys[r], keys[r + 1]), keys[r]), all_keys(sure));
     close |= left >= narrow_lanes ? bits : bits & ((1U << left) - 1);
   }
-  int in_order[1 << Bits];
-  for (int r = 0; r < registers; ++r) store_keys(in_order + r * narrow_lanes, keys[r]);
-  const int kth = in_order[task.k - 1];
   if (close == 0) {
     for (int r = 0; r < registers && r * narrow_lanes < task.k; ++r) {
       const int left = task.k - r * narrow_lanes;
@@ -105,19 +102,20 @@ void sort_survivors(const NearestGroup& task, int query, float radius, double to
                   look_up<Bits>(keys[r], room.ids[query]));
     }
     room.outcome[query] = GroupOutcome::found;
-  } else if (kth > last_key - 2 * sure) {
-    room.outcome[query] = GroupOutcome::few;
     return;
-  } else {
-    int candidates = task.k;
-    while (candidates < found && in_order[candidates] - kth < sure) ++candidates;
-    room.outcome[query] = GroupOutcome::ambiguous;
-    room.candidates[query] = candidates;
-    for (int i = 0; i < candidates; ++i) {
-      room.sorted[query][i] = room.ids[query][in_order[i] & ((1 << Bits) - 1)];
-    }
   }
-  room.kth_sum += static_cast<double>(kth >> Bits) / scale * task.reach * task.reach;
+  int in_order[1 << Bits];
+  for (int r = 0; r < registers; ++r) {
+    store_keys(in_order + r * narrow_lanes, keys[r]);
+    store_keys(room.sorted[query] + r * narrow_lanes, look_up<Bits>(keys[r], room.ids[query]));
+  }
+  const int kth = in_order[task.k - 1];
+  room.outcome[query] = GroupOutcome::few;
+  if (kth > last_key - 2 * sure) return;
+  int candidates = task.k;
+  while (candidates < found && in_order[candidates] - kth < sure) ++candidates;
+  room.outcome[query] = GroupOutcome::ambiguous;
+  room.candidates[query] = candidates;
 }
 
 /// Bound of the error of a squared distance between listed nodes and queries, in units of reach^2:
@@ -134,6 +132,31 @@ double rounding_error(const NearestGroup& task, double radius) {
   return Dim * (2 * radius + of_difference) * of_difference + (Dim + 2) * unit * radius * radius;
 }
 
+/// Gathers every query's survivors; `limits` are set to what each was given.
+template <int Dim>
+void gather_all(const NearestGroup& task, int count, float* limits) {
+  GroupRoom& room = *task.room;
+  float limit = task.limit;
+  room.retries = 0;
+  for (int q = 0; q < task.query_count; ++q) {
+    limits[q] = limit;
+    gather_survivors<Dim>(task, count, q, limit);
+    const float excess = static_cast<float>(room.found[q]) / task.target - 1;
+    const float follow = 1 - task.gain * (excess < 0.5F ? excess : 0.5F);
+    limit = limit * follow < 1 ? limit * follow : 1;
+    if (room.found[q] < task.k) {
+      ++room.retries;
+      limits[q] = 1;
+      gather_survivors<Dim>(task, count, q, 1);
+    }
+    for (int i = 0; i < 3 && room.found[q] > GroupRoom::survivors; ++i) {
+      limits[q] *= 0.7F;
+      gather_survivors<Dim>(task, count, q, limits[q]);
+    }
+  }
+  room.limit = limit;
+}
+
 template <int Dim>
 void search(const NearestGroup& task) {
   GroupRoom& room = *task.room;
@@ -141,19 +164,8 @@ void search(const NearestGroup& task) {
   for (int c = 0; c < Dim; ++c) {
     for (int i = 0; i < narrow_lanes; ++i) task.list[c][count + i] = 1e30F;
   }
-  const double ratio = task.radius / task.reach;
-  const float wanted = static_cast<float>(ratio * ratio);
   float limits[group_size];
-  room.kth_sum = 0;
-  room.retries = 0;
-  for (int q = 0; q < task.query_count; ++q) {
-    limits[q] = wanted;
-    gather_survivors<Dim>(task, count, q, wanted);
-    if (room.found[q] >= task.k) continue;
-    limits[q] = 1;
-    ++room.retries;
-    gather_survivors<Dim>(task, count, q, 1);
-  }
+  gather_all<Dim>(task, count, limits);
   const double tolerance = 2 * rounding_error<Dim>(task, 1);
   for (int q = 0; q < task.query_count; ++q) {
     const int found = room.found[q];
