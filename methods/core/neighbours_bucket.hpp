@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "methods/core/box_tree.hpp"
 #include "methods/core/hilbert.hpp"
 #include "methods/core/neighbours_groups.hpp"
 
@@ -20,7 +21,16 @@ class BucketEngine {
     if (nodes.cols() == 0) return;
     sorted_.assign(nodes, hilbert_order<Dim>(nodes));
     box_buckets();
-    while (levels_.back().count > fan) box_level();
+    do {
+      box_level();
+    } while (levels_.back().count > fan);
+    tree_.levels = static_cast<int>(levels_.size());
+    for (int level = 0; level < tree_.levels; ++level) {
+      for (int c = 0; c < Dim; ++c) {
+        tree_.low[level][c] = levels_[level].low[c].data();
+        tree_.high[level][c] = levels_[level].high[c].data();
+      }
+    }
   }
 
   /// Offers all nodes within the collector's bound.
@@ -38,26 +48,40 @@ class BucketEngine {
   int group_of(const Point<Dim>& x) const;
   /// Squared radius of a ball of about k nodes at the density of bucket g.
   double expected_square(int g, int k) const;
-  /// Sets ranges, begin and end, of the sorted nodes that include all within `reach` of a box.
-  void list_ranges(const Point<Dim>& low, const Point<Dim>& high, double reach,
-                   std::vector<int>& ranges) const {
-    ranges.clear();
-    Box box;
+  /// Lists ranges, begin and end, of the sorted nodes that include all within `reach` of a box;
+  /// returns how many. The list grows where it has to and is not cut back.
+  int list_ranges(const Point<Dim>& low, const Point<Dim>& high, double reach,
+                  std::vector<int>& ranges) const {
+    if (levels_.empty()) return 0;
+    // Boxes found stand at the end of the room, ranges grow from its beginning.
+    const std::size_t room = static_cast<std::size_t>(groups());
+    if (ranges.size() < 3 * room) ranges.resize(3 * room);
+    int* const found = ranges.data() + 2 * room;
+    int count = 0;
+    BoxesNear task{&tree_, Dim, {}, {}, reach, found, &count};
     for (int c = 0; c < Dim; ++c) {
-      const double wide = reach * (1 + 1e-9) + 1e-15 * (std::abs(low[c]) + std::abs(high[c]));
-      box.low[c] = low[c] - wide;
-      box.high[c] = high[c] + wide;
+      const double slack = 1e-15 * (std::abs(low[c]) + std::abs(high[c]));
+      task.low[c] = low[c] - slack;
+      task.high[c] = high[c] + slack;
     }
-    if (!levels_.empty()) list_boxes(box, static_cast<int>(levels_.size()) - 1, 0, ranges);
+    list_boxes_near(task);
+    std::size_t filled = 0;
+    for (int i = 0; i < count; ++i) {
+      const auto [begin, end] = group(found[i]);
+      if (filled > 0 && ranges[filled - 1] == begin) {
+        ranges[filled - 1] = end;
+      } else {
+        ranges[filled++] = begin;
+        ranges[filled++] = end;
+      }
+    }
+    return static_cast<int>(filled / 2);
   }
 
  private:
   static constexpr int bucket_size = Dim == 2 ? 16 : 32;
-  static constexpr int fan = 8;  ///< boxes in a box
+  static constexpr int fan = BoxTree::fan;
 
-  struct Box {
-    std::array<double, Dim> low, high;
-  };
   /// Boxes of one level, padded with empty ones to a multiple of `fan`.
   struct Level {
     int count = 0;
@@ -65,6 +89,7 @@ class BucketEngine {
   };
 
   SortedNodes<Dim> sorted_;
+  BoxTree tree_{};             ///< the same for kernels
   std::vector<Level> levels_;  ///< buckets first, then ever larger boxes, at most `fan` on top
 
   void add_level(int count) {
@@ -118,7 +143,6 @@ class BucketEngine {
   }
   void visit_boxes(const Point<Dim>& query, int level, int first,
                    CandidateCollector auto& collector) const;
-  void list_boxes(const Box& box, int level, int first, std::vector<int>& ranges) const;
 };
 
 template <int Dim>
@@ -175,30 +199,6 @@ void BucketEngine<Dim>::visit_boxes(const Point<Dim>& query, int level, int firs
       for (int c = 0; c < Dim; ++c) node[c] = sorted_.coordinates[c][i];
       const double d2 = squared_distance<Dim>(query, node);
       if (d2 <= collector.bound()) collector.offer({d2, sorted_.ids[i]});
-    }
-  }
-}
-
-template <int Dim>
-void BucketEngine<Dim>::list_boxes(const Box& box, int level, int first,
-                                   std::vector<int>& ranges) const {
-  for (int i = first; i < first + fan; ++i) {
-    bool meets = true;
-    for (int c = 0; c < Dim; ++c) {
-      meets = meets && levels_[level].low[c][i] <= box.high[c] &&
-              levels_[level].high[c][i] >= box.low[c];
-    }
-    if (!meets) continue;
-    if (level > 0) {
-      list_boxes(box, level - 1, i * fan, ranges);
-      continue;
-    }
-    const auto [begin, end] = group(i);
-    if (!ranges.empty() && ranges.back() == begin) {
-      ranges.back() = end;
-    } else {
-      ranges.push_back(begin);
-      ranges.push_back(end);
     }
   }
 }

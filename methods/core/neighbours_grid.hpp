@@ -62,16 +62,17 @@ class GridEngine {
     const double count = std::max(1, cell_start_[g + 1] - cell_start_[g]);
     return square_of_ball(k / count, edge_, directions_);
   }
-  /// Sets ranges, begin and end, of the sorted nodes that include all within `reach` of a box.
-  void list_ranges(const Point<Dim>& low, const Point<Dim>& high, double reach,
-                   std::vector<int>& ranges) const;
+  /// Lists ranges, begin and end, of the sorted nodes that include all within `reach` of a box;
+  /// returns how many. The list grows where it has to and is not cut back.
+  int list_ranges(const Point<Dim>& low, const Point<Dim>& high, double reach,
+                  std::vector<int>& ranges) const;
 
  private:
   using Cell = std::array<int, Dim>;
 
   /// Mean number of nodes in a cell of an even cloud. Measured: few enough that the list around a
   /// cell is not long, many enough that it serves several queries.
-  static constexpr double nodes_per_cell = Dim == 1 ? 3 : Dim == 2 ? 9 : 12;
+  static constexpr double nodes_per_cell = Dim == 1 ? 3 : Dim == 2 ? 12 : 14;
   /// Keeps round-off in the distance to a cell from hiding a node on its face.
   static constexpr double shy = 1 - 1e-12;
 
@@ -178,29 +179,28 @@ void GridEngine<Dim>::sort_by_cell(const Points<Dim>& nodes) {
 }
 
 template <int Dim>
-void GridEngine<Dim>::list_ranges(const Point<Dim>& low, const Point<Dim>& high, double reach,
-                                  std::vector<int>& ranges) const {
+int GridEngine<Dim>::list_ranges(const Point<Dim>& low, const Point<Dim>& high, double reach,
+                                 std::vector<int>& ranges) const {
   const double wide = reach * (1 + 1e-9) + slack_ +
                       1e-15 * (low.cwiseAbs().maxCoeff() + high.cwiseAbs().maxCoeff());
   const Cell first = cell_of(low - Point<Dim>::Constant(wide));
   const Cell last = cell_of(high + Point<Dim>::Constant(wide));
-  ranges.clear();
+  std::size_t rows = 1;
+  for (int c = 0; c < Dim - 1; ++c) rows *= static_cast<std::size_t>(last[c] - first[c]) + 1;
+  if (ranges.size() < 2 * rows) ranges.resize(2 * rows);
+  int* next = ranges.data();
   Cell cell = first;
+  cell[Dim - 1] = 0;
   while (true) {
-    cell[Dim - 1] = 0;
     const int row = index_of(cell);
-    const int begin = cell_start_[row + first[Dim - 1]];
-    const int end = cell_start_[row + last[Dim - 1] + 1];
-    if (begin < end) {
-      ranges.push_back(begin);
-      ranges.push_back(end);
-    }
+    *next++ = cell_start_[row + first[Dim - 1]];
+    *next++ = cell_start_[row + last[Dim - 1] + 1];
     int c = Dim - 2;
     while (c >= 0 && cell[c] == last[c]) {
       cell[c] = first[c];
       --c;
     }
-    if (c < 0) return;
+    if (c < 0) return static_cast<int>(rows);
     ++cell[c];
   }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -56,7 +57,7 @@ concept GroupEngine = Dim >
   { engine.group(0) } -> std::convertible_to<std::pair<int, int>>;
   { engine.group_of(x) } -> std::convertible_to<int>;
   { engine.expected_square(0, 1) } -> std::convertible_to<double>;
-  engine.list_ranges(x, x, 1.0, ranges);
+  { engine.list_ranges(x, x, 1.0, ranges) } -> std::convertible_to<int>;
 };
 
 /// Which queries lie in which group of an engine's nodes. Queries that are nodes, all or some in
@@ -141,6 +142,8 @@ class GroupWorker {
   void search(int g, std::span<const int> ids) {
     for (std::size_t first = 0; first < ids.size(); first += group_size) {
       count_ = static_cast<int>(std::min<std::size_t>(group_size, ids.size() - first));
+      low_.setConstant(std::numeric_limits<double>::infinity());
+      high_ = -low_;
       for (int i = 0; i < count_; ++i) take(i, ids[first + i]);
       search_chunk(g);
     }
@@ -174,7 +177,11 @@ class GroupWorker {
   void take(int place, int query) {
     ids_[place] = query;
     row_[place] = rows_.row(query);
-    for (int c = 0; c < Dim; ++c) x_[c][place] = queries_(c, query);
+    for (int c = 0; c < Dim; ++c) {
+      x_[c][place] = queries_(c, query);
+      low_[c] = std::min(low_[c], x_[c][place]);
+      high_[c] = std::max(high_[c], x_[c][place]);
+    }
   }
   void search_chunk(int g) {
     if (square_ == 0) square_ = engine_.expected_square(g, static_cast<int>(target_));
@@ -208,20 +215,15 @@ bool GroupWorker<Dim, Engine>::search_within(double radius) {
   NearestGroup task{};
   double widest = 0;
   for (int c = 0; c < Dim; ++c) {
-    low_[c] = high_[c] = x_[c][0];
-    for (int i = 1; i < count_; ++i) {
-      low_[c] = std::min(low_[c], x_[c][i]);
-      high_[c] = std::max(high_[c], x_[c][i]);
-    }
     task.middle[c] = low_[c] + (high_[c] - low_[c]) / 2;
     task.half[c] = std::max(high_[c] - task.middle[c], task.middle[c] - low_[c]);
     widest = std::max(widest, task.half[c]);
   }
   // Written so that NaN fails it too. Squares must neither overflow nor vanish.
   if (!(reach > 1e-140 && reach < 1e140 && widest < 100 * reach)) return false;
-  engine_.list_ranges(low_, high_, reach, ranges_);
+  task.range_count = engine_.list_ranges(low_, high_, reach, ranges_);
   std::size_t length = 0;
-  for (std::size_t r = 0; r < ranges_.size(); r += 2) length += ranges_[r + 1] - ranges_[r];
+  for (int r = 0; r < task.range_count; ++r) length += ranges_[2 * r + 1] - ranges_[2 * r];
   if (list_ids_.size() < length + 32) {
     for (std::vector<float>& list : list_) list.resize(2 * length + 32);
     list_ids_.resize(2 * length + 32);
@@ -235,7 +237,6 @@ bool GroupWorker<Dim, Engine>::search_within(double radius) {
   }
   task.ids = engine_.sorted().ids.data();
   task.ranges = ranges_.data();
-  task.range_count = static_cast<int>(ranges_.size() / 2);
   task.query_count = count_;
   task.rows = row_;
   task.reach = reach;

@@ -18,6 +18,14 @@ int list_nodes(const NearestGroup& task) {
     half[c] = all(task.half[c]) * inverse;
   }
   const Pack limit = all(1 + 1e-9);  // round-off must not lose a node on the rim
+  const double* nodes[Dim];
+  float* list[Dim];
+  for (int c = 0; c < Dim; ++c) {
+    nodes[c] = task.nodes[c];
+    list[c] = task.list[c];
+  }
+  const int* const ids = task.ids;
+  int* const list_ids = task.list_ids;
   int count = 0;
   for (int r = 0; r < task.range_count; ++r) {
     const int end = task.ranges[2 * r + 1];
@@ -25,14 +33,14 @@ int list_nodes(const NearestGroup& task) {
       Pack place[Dim];
       Pack square = all(0);
       for (int c = 0; c < Dim; ++c) {
-        place[c] = (load(task.nodes[c] + i) - middle[c]) * inverse;
+        place[c] = (load(nodes[c] + i) - middle[c]) * inverse;
         const Pack gap = max(abs(place[c]) - half[c], all(0));
         square = square + gap * gap;
       }
       unsigned bits = less(square, limit);
       if (end - i < lanes) bits &= (1U << (end - i)) - 1;
-      for (int c = 0; c < Dim; ++c) append_rounded(task.list[c] + count, place[c], bits);
-      append_integers(task.list_ids + count, task.ids + i, bits);
+      for (int c = 0; c < Dim; ++c) append_rounded(list[c] + count, place[c], bits);
+      append_integers(list_ids + count, ids + i, bits);
       count += __builtin_popcount(bits);
     }
   }
@@ -45,8 +53,11 @@ void gather_survivors(const NearestGroup& task, int count, int query, float radi
   GroupRoom& room = *task.room;
   float* const squares = room.squares[query];
   int* const ids = room.ids[query];
+  const int* const list_ids = task.list_ids;
+  const float* list[Dim];
   Floats x[Dim];
   for (int c = 0; c < Dim; ++c) {
+    list[c] = task.list[c];
     const double place = (task.queries[c][query] - task.middle[c]) * (1 / task.reach);
     x[c] = all_floats(static_cast<float>(place));
   }
@@ -55,17 +66,20 @@ void gather_survivors(const NearestGroup& task, int count, int query, float radi
   for (int i = 0; i < count; i += narrow_lanes) {
     Floats square = all_floats(0);
     for (int c = 0; c < Dim; ++c) {
-      const Floats difference = load_floats(task.list[c] + i) - x[c];
+      const Floats difference = load_floats(list[c] + i) - x[c];
       square = square + difference * difference;
     }
     const unsigned bits = at_most(square, limit);
     append_floats(squares + found, square, bits);
-    append_keys(ids + found, task.list_ids + i, bits);
+    append_keys(ids + found, list_ids + i, bits);
     found += __builtin_popcount(bits);
     if (found > GroupRoom::survivors) break;
   }
   room.found[query] = found;
 }
+
+/// How many lanes of a register are used when so many numbers are left.
+int lanes_left(int left) { return left < 0 ? 0 : left < narrow_lanes ? left : narrow_lanes; }
 
 /// Sorts a query's survivors, of which there are at most 2^Bits. `tolerance` is the least
 /// difference of squared distances, in units of reach^2, that is sure.
@@ -81,24 +95,20 @@ void sort_survivors(const NearestGroup& task, int query, float radius, double to
   for (int r = 0; r < registers; ++r) {
     const int first = r * narrow_lanes;
     const Floats squares = load_floats(room.squares[query] + first) * all_floats(scale);
-    const int left = found - first;
-    const Keys made = keys_of<Bits>(squares, first);
     keys[r] =
-        left >= narrow_lanes ? made : first_lanes(left < 0 ? 0 : left, made, all_keys(last_key));
+        first_lanes(lanes_left(found - first), keys_of<Bits>(squares, first), all_keys(last_key));
   }
   sort_keys<registers>(keys);
   keys[registers] = all_keys(last_key);
   unsigned close = 0;
   for (int r = 0; r < registers && r * narrow_lanes < task.k; ++r) {
-    const int left = task.k - r * narrow_lanes;
-    const unsigned bits =
-        less_keys(subtract(shift_in(keys[r], keys[r + 1]), keys[r]), all_keys(sure));
-    close |= left >= narrow_lanes ? bits : bits & ((1U << left) - 1);
+    const Keys steps = subtract(shift_in(keys[r], keys[r + 1]), keys[r]);
+    const int left = lanes_left(task.k - r * narrow_lanes);
+    close |= less_keys(steps, all_keys(sure)) & ((1U << left) - 1);
   }
   if (close == 0) {
     for (int r = 0; r < registers && r * narrow_lanes < task.k; ++r) {
-      const int left = task.k - r * narrow_lanes;
-      store_first(task.rows[query] + r * narrow_lanes, left < narrow_lanes ? left : narrow_lanes,
+      store_first(task.rows[query] + r * narrow_lanes, lanes_left(task.k - r * narrow_lanes),
                   look_up<Bits>(keys[r], room.ids[query]));
     }
     room.outcome[query] = GroupOutcome::found;
