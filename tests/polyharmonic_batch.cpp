@@ -1,0 +1,183 @@
+// Polyharmonic weights computed side by side, on each path, against those made one by one.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include "methods/core/polyharmonic.hpp"
+#include "methods/core/simd/path.hpp"
+#include "tests/contract_support.hpp"
+
+namespace strongpoint {
+namespace {
+
+/// Runs a check on every path that the processor has.
+template <class Check>
+void on_every_path(Check check) {
+  const SimdPath before = simd_path();
+  for (SimdPath path : simd_paths()) {
+    SCOPED_TRACE(name_of(path));
+    use_simd_path(path);
+    check();
+  }
+  use_simd_path(before);
+}
+
+template <int Dim>
+struct Batch {
+  Weights weights;
+  std::vector<LocalOutcome> outcomes;  ///< of the anchors asked for
+};
+
+/// Weights of some anchors, handed to the kernel in groups of a size.
+template <int Dim>
+Batch<Dim> fill(const PolyharmonicFit<Dim>& fit, const Sites<Dim>& sites, const Stencils& stencils,
+                const Derivatives<Dim>& derivatives, const std::vector<int>& anchors,
+                std::size_t group) {
+  Batch<Dim> made{weights_on_stencils<Dim>(sites, stencils, derivatives.size()),
+                  std::vector<LocalOutcome>(anchors.size(), LocalOutcome::undecided)};
+  const Stencils points = points_by_anchor<Dim>(sites);
+  typename PolyharmonicFit<Dim>::Workspace work;
+  for (std::size_t begin = 0; begin < anchors.size(); begin += group) {
+    const std::size_t size = std::min(group, anchors.size() - begin);
+    fit.fill_batch({sites, stencils, points, derivatives, {anchors.data() + begin, size}}, work,
+                   made.weights, {made.outcomes.data() + begin, size});
+  }
+  return made;
+}
+
+/// Moves the evaluation points off the anchors: anchor a has a % 4 of them.
+template <int Dim>
+void scatter_points(Sites<Dim>& sites, double spacing) {
+  sites.point_anchor.clear();
+  for (int a = 0; a < sites.anchor_count(); ++a)
+    sites.point_anchor.insert(sites.point_anchor.end(), a % 4, a);
+  sites.points.resize(Dim, static_cast<Eigen::Index>(sites.point_anchor.size()));
+  for (int p = 0; p < sites.point_count(); ++p) {
+    const Point<Dim> direction = Point<Dim>::Constant(0.3).array() + 0.1 * (p % 5);
+    sites.points.col(p) = sites.anchors.col(sites.point_anchor[p]) + spacing * direction;
+  }
+}
+
+/// The stencils of some anchors alone.
+Stencils stencils_of(const Stencils& stencils, const std::vector<int>& anchors) {
+  Stencils chosen;
+  for (int a : anchors) chosen.push_back(stencils[a]);
+  return chosen;
+}
+
+/// Every path against the kernel one by one, within round-off times the condition of the bordered
+/// matrix (1-norm); all stencils must be served.
+template <int Dim>
+void matches_one_by_one(int phs, int degree, bool at_anchors) {
+  SCOPED_TRACE(fmt::format("{}D phs={} degree={}", Dim, phs, degree));
+  const std::string spec = fmt::format("rbf_fd[phs={},degree={}]", phs, degree);
+  const int level = test_level<Dim>(degree);
+  TestScene<Dim> scene = make_scene<Dim>(spec, "perturbed", level, 3);
+  Sites<Dim>& sites = scene.sites;
+  if (!at_anchors) scatter_points<Dim>(sites, 1.0 / level);
+  const PolyharmonicFit<Dim> fit(phs, degree);
+  const auto derivatives = Derivatives<Dim>::between_orders(0, std::min({2, degree, phs - 1}));
+  const std::vector<int> anchors = scene.stencils.occupied();
+  const Stencils points = points_by_anchor<Dim>(sites);
+  const auto conditions = scene.method->condition(
+      sites, anchors, stencils_of(scene.stencils, anchors), Scaling::both, ConditionNorm::one);
+  on_every_path([&] {
+    const Batch<Dim> made = fill<Dim>(fit, sites, scene.stencils, derivatives, anchors, 64);
+    typename PolyharmonicFit<Dim>::Workspace work;
+    LocalStencil<Dim> local;
+    for (std::size_t i = 0; i < anchors.size(); ++i) {
+      ASSERT_EQ(made.outcomes[i], LocalOutcome::ok);
+      ASSERT_EQ(local.gather(sites, scene.stencils[anchors[i]], anchors[i]), LocalOutcome::ok);
+      ASSERT_EQ(fit.factorise(local, work), LocalOutcome::ok);
+      const double tolerance = std::numeric_limits<double>::epsilon() * conditions[i];
+      for (int p : points[anchors[i]]) {
+        const Point<Dim> offset =
+            (sites.points.col(p) - sites.anchors.col(anchors[i])) / local.radius;
+        Eigen::MatrixXd one(derivatives.size(), local.size);
+        fit.evaluate(local, work, offset, derivatives, {one.data(), one.rows(), one.cols()});
+        for (int d = 0; d < derivatives.size(); ++d) {
+          const double unit = std::pow(local.radius, order_of<Dim>(derivatives[d]));
+          const double difference = (unit * made.weights.row(p).row(d) - one.row(d)).norm();
+          EXPECT_LE(difference, tolerance * one.row(d).norm()) << p << ' ' << d;
+        }
+      }
+    }
+  });
+}
+
+TEST(PolyharmonicBatch, MatchesWeightsMadeOneByOne) {
+  matches_one_by_one<1>(3, 4, true);
+  matches_one_by_one<2>(1, 0, true);
+  matches_one_by_one<2>(1, 2, true);
+  matches_one_by_one<2>(3, 2, true);
+  matches_one_by_one<2>(3, 4, true);
+  matches_one_by_one<2>(5, 6, true);
+  matches_one_by_one<2>(11, 5, true);
+  matches_one_by_one<2>(3, 8, true);
+  matches_one_by_one<3>(3, 2, true);
+  matches_one_by_one<3>(5, 3, true);
+}
+
+TEST(PolyharmonicBatch, MatchesThemAtAnyNumberOfPointsOffTheAnchors) {
+  matches_one_by_one<2>(3, 2, false);
+  matches_one_by_one<2>(5, 4, false);
+  matches_one_by_one<3>(3, 2, false);
+}
+
+TEST(PolyharmonicBatch, GivesTheSameBitsInAnyCompany) {
+  const auto scene = make_scene<2>("rbf_fd[degree=3]", "perturbed", 12, 1);
+  const PolyharmonicFit<2> fit(3, 3);
+  const auto derivatives = Derivatives<2>::between_orders(1, 2);
+  std::vector<int> anchors = scene.stencils.occupied();
+  on_every_path([&] {
+    std::sort(anchors.begin(), anchors.end());
+    const auto together = fill<2>(fit, scene.sites, scene.stencils, derivatives, anchors, 64);
+    std::reverse(anchors.begin(), anchors.end());
+    for (const std::size_t group : {1, 5}) {
+      const auto apart = fill<2>(fit, scene.sites, scene.stencils, derivatives, anchors, group);
+      EXPECT_EQ(together.weights.values, apart.weights.values);
+    }
+    for (const int threads : {1, 3}) {
+      const int before = omp_get_max_threads();
+      omp_set_num_threads(threads);
+      const Weights weights = scene.method->weights(scene.sites, scene.stencils, derivatives);
+      omp_set_num_threads(before);
+      EXPECT_EQ(together.weights.values, weights.values) << threads;
+    }
+  });
+}
+
+TEST(PolyharmonicBatch, LeavesStencilsThatAreNotSafeUndecided) {
+  // Anchors: nodes on a line, on a block of two rows with two at one place, too few, and well
+  // spread ones.
+  Points<2> nodes(2, 40);
+  for (int i = 0; i < 10; ++i) nodes.col(i) = Point<2>(0.1 * i, 0);
+  for (int i = 10; i < 40; ++i) {
+    nodes.col(i) = Point<2>(3 + i % 5 + 0.1 * std::sin(i), i / 5 + 0.1 * std::cos(2 * i));
+  }
+  nodes.col(39) = nodes.col(38);
+  const Sites<2> sites = sites_at_nodes<2>(nodes);
+  Stencils stencils;
+  for (int a = 0; a < 40; ++a) {
+    std::vector<int> stencil;
+    if (a == 0) stencil = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
+    if (a == 10) stencil = {10, 11, 15, 16, 12};
+    if (a == 20) stencil = {20, 21, 15, 25, 16, 26, 22, 10, 30, 11, 31};
+    if (a == 38) stencil = {38, 39, 33, 37, 32, 28, 34, 27, 36, 29, 31};
+    stencils.push_back(stencil);
+  }
+  const PolyharmonicFit<2> fit(3, 2);
+  const std::vector<int> anchors{0, 10, 20, 38};
+  on_every_path([&] {
+    const auto made = fill<2>(fit, sites, stencils, {{1, 0}}, anchors, 64);
+    const std::vector<LocalOutcome> expected{LocalOutcome::undecided, LocalOutcome::undecided,
+                                             LocalOutcome::ok, LocalOutcome::undecided};
+    EXPECT_EQ(made.outcomes, expected);
+  });
+}
+
+}  // namespace
+}  // namespace strongpoint
