@@ -95,20 +95,43 @@ inline void subtract_product_below(int size, const LaneMatrix& c, const LaneMatr
   }
 }
 
+/// Solves the triangle (Size, Size) for all columns; rows are counted from its first one, or from
+/// its last one where the strides are negative: the latter serves upper triangles.
+template <int Size>
+void solve_triangle(const LaneMatrix& triangle, const Pack* inverse, int step, int columns,
+                    const LaneMatrix& x) {
+  for (int c = 0; c < columns; ++c) {
+    Pack values[Size];
+#pragma GCC unroll 8
+    for (int i = 0; i < Size; ++i) {
+      values[i] = x(i, c);
+#pragma GCC unroll 8
+      for (int k = 0; k < i; ++k) values[i] = values[i] - triangle(i, k) * values[k];
+      if (inverse != nullptr) values[i] = values[i] * inverse[i * step];
+      x(i, c) = values[i];
+    }
+  }
+}
+
+/// The same with a size that is known when the program runs, up to a panel's.
+template <int Size = panel>
+void solve_small(int size, const LaneMatrix& triangle, const Pack* inverse, int step, int columns,
+                 const LaneMatrix& x) {
+  if constexpr (Size > 1) {
+    if (size < Size) return solve_small<Size - 1>(size, triangle, inverse, step, columns, x);
+  }
+  solve_triangle<Size>(triangle, inverse, step, columns, x);
+}
+
 /// Solves L y = x, x (size, columns) becoming y. `inverse` (size) are those of the diagonal, or
 /// null: the diagonal is one.
 inline void solve_lower(int size, const LaneMatrix& lower, const Pack* inverse, int columns,
                         const LaneMatrix& x) {
   for (int begin = 0; begin < size; begin += panel) {
-    const int end = begin + panel < size ? begin + panel : size;
-    subtract_product(end - begin, columns, x.block(begin, 0), lower.block(begin, 0), x, begin);
-    for (int c = 0; c < columns; ++c) {
-      for (int i = begin; i < end; ++i) {
-        Pack value = x(i, c);
-        for (int k = begin; k < i; ++k) value = value - lower(i, k) * x(k, c);
-        x(i, c) = inverse == nullptr ? value : value * inverse[i];
-      }
-    }
+    const int width = size - begin < panel ? size - begin : panel;
+    subtract_product(width, columns, x.block(begin, 0), lower.block(begin, 0), x, begin);
+    solve_small(width, lower.block(begin, begin), inverse == nullptr ? nullptr : inverse + begin, 1,
+                columns, x.block(begin, 0));
   }
 }
 
@@ -119,13 +142,9 @@ inline void solve_upper(int size, const LaneMatrix& upper, const Pack* inverse, 
     const int begin = (end - 1) / panel * panel;
     subtract_product(end - begin, columns, x.block(begin, 0), upper.block(begin, end),
                      x.block(end, 0), size - end);
-    for (int c = 0; c < columns; ++c) {
-      for (int i = end - 1; i >= begin; --i) {
-        Pack value = x(i, c);
-        for (int k = i + 1; k < end; ++k) value = value - upper(i, k) * x(k, c);
-        x(i, c) = inverse == nullptr ? value : value * inverse[i];
-      }
-    }
+    const LaneMatrix turned{&upper(end - 1, end - 1), -upper.row, -upper.column};
+    solve_small(end - begin, turned, inverse == nullptr ? nullptr : inverse + end - 1, -1, columns,
+                {&x(end - 1, 0), -x.row, x.column});
   }
 }
 
@@ -148,11 +167,14 @@ inline unsigned factorise_definite(int size, const LaneMatrix& a, Pack* inverse,
       const Pack pivot = a(j, j);
       good &= less(inverse[j], abs(pivot)) & less(all(0), pivot * first);
       inverse[j] = all(1) / pivot;
+      const Pack reciprocal = inverse[j];
       for (int i = j + 1; i < size; ++i) {
-        const Pack factor = a(i, j) * inverse[j];
         a(j, i) = a(i, j);
-        a(i, j) = factor;
-        for (int k = j + 1; k < end && k <= i; ++k) a(i, k) = a(i, k) - factor * a(j, k);
+        a(i, j) = a(i, j) * reciprocal;
+      }
+      for (int k = j + 1; k < end; ++k) {
+        const Pack factor = a(j, k);
+        for (int i = k; i < size; ++i) a(i, k) = a(i, k) - a(i, j) * factor;
       }
     }
   }

@@ -77,13 +77,13 @@ void exchange(unsigned bits, Pack* a, Pack* b, int count) {
 /// `filled` entries. Gives that entry's size.
 template <int Dim>
 Pack exchange_nodes(const Group& group, int n, int k, int filled) {
-  Pack largest = abs(group.polynomials(k, k));
+  Pack largest = all(0);
+  for (int i = k; i < n; ++i) largest = max(largest, abs(group.polynomials(i, k)));
   Pack row = all(k);
-  for (int i = k + 1; i < n; ++i) {
-    const Pack size = abs(group.polynomials(i, k));
-    const unsigned bits = less(largest, size);
-    largest = choose(bits, size, largest);
-    row = choose(bits, all(i), row);
+  Pack here = all(n);
+  for (int i = n - 1; i >= k; --i) {
+    here = here - all(1);
+    row = choose(less(abs(group.polynomials(i, k)), largest), row, here);
   }
   double rows[lanes];
   store(rows, row);
@@ -100,6 +100,21 @@ Pack exchange_nodes(const Group& group, int n, int k, int filled) {
   return largest;
 }
 
+/// Fills a column with a monomial at all nodes. Gives its largest entry's size.
+template <int Dim>
+Pack fill_monomial(const Group& group, int n, int k, const int* exponents) {
+  const LaneMatrix column = group.polynomials.block(0, k);
+  for (int i = 0; i < n; ++i) column(i, 0) = all(1);
+  for (int c = 0; c < Dim; ++c) {
+    for (int power = 0; power < exponents[c]; ++power) {
+      for (int i = 0; i < n; ++i) column(i, 0) = column(i, 0) * group.stencils.z[i * Dim + c];
+    }
+  }
+  Pack largest = all(0);
+  for (int i = 0; i < n; ++i) largest = max(largest, abs(column(i, 0)));
+  return largest;
+}
+
 /// LU of the polynomials, nodes being exchanged, a few columns at a time. Gives the bits of lanes
 /// where the columns are safely independent.
 template <int Dim>
@@ -112,12 +127,7 @@ unsigned factorise_polynomials(const PolyharmonicTask& task, const Group& group)
     const int end = begin + panel < task.terms ? begin + panel : task.terms;
     Pack column[panel];
     for (int k = begin; k < end; ++k) {
-      Pack largest = all(0);
-      for (int i = 0; i < n; ++i) {
-        lu(i, k) = monomial<Dim>(group.stencils.z + i * Dim, task.exponents + k * Dim);
-        largest = max(largest, abs(lu(i, k)));
-      }
-      column[k - begin] = largest;
+      column[k - begin] = fill_monomial<Dim>(group, n, k, task.exponents + k * Dim);
     }
     solve_lower(begin, lu, nullptr, end - begin, lu.block(0, begin));
     subtract_product(n - begin, end - begin, lu.block(begin, begin), lu.block(begin, 0),
@@ -125,11 +135,12 @@ unsigned factorise_polynomials(const PolyharmonicTask& task, const Group& group)
     for (int k = begin; k < end; ++k) {
       const Pack pivot = exchange_nodes<Dim>(group, n, k, end);
       good &= less(all(polynomial_tolerance) * column[k - begin], pivot);
-      group.inverse[k] = all(1) / lu(k, k);
-      for (int i = k + 1; i < n; ++i) {
-        const Pack factor = lu(i, k) * group.inverse[k];
-        lu(i, k) = factor;
-        for (int j = k + 1; j < end; ++j) lu(i, j) = lu(i, j) - factor * lu(k, j);
+      const Pack inverse = all(1) / lu(k, k);
+      group.inverse[k] = inverse;
+      for (int i = k + 1; i < n; ++i) lu(i, k) = lu(i, k) * inverse;
+      for (int j = k + 1; j < end; ++j) {
+        const Pack factor = lu(k, j);
+        for (int i = k + 1; i < n; ++i) lu(i, j) = lu(i, j) - lu(i, k) * factor;
       }
     }
   }
