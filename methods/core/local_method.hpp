@@ -11,7 +11,6 @@
 
 #include "methods/core/condition.hpp"
 #include "methods/core/error.hpp"
-#include "methods/core/huge_pages.hpp"
 #include "methods/core/local_stencil.hpp"
 #include "methods/core/method.hpp"
 #include "methods/core/parallel_errors.hpp"
@@ -118,7 +117,7 @@ Weights weights_on_stencils(const Sites<Dim>& sites, const Stencils& stencils, i
     const std::span<const int> nodes = stencils[anchor];
     weights.columns.insert(weights.columns.end(), nodes.begin(), nodes.end());
   }
-  resize_large(weights.values, weights.offsets.back() * per_entry);
+  weights.values.resize(weights.offsets.back() * per_entry);
   return weights;
 }
 
