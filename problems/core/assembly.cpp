@@ -9,30 +9,41 @@
 #include "methods/core/error.hpp"
 #include "methods/core/parallel_errors.hpp"
 #include "problems/core/assembly_rows.hpp"
+#include "problems/core/row_runs.hpp"
 
 namespace strongpoint {
 namespace {
 
-/// Rows that a thread treats in one go.
-constexpr int rows_at_once = 512;
+/// Nodes whose rows a thread treats in one go.
+constexpr int nodes_at_once = 256;
 
 /// Whether the columns of a row are written, or compared with those that are there.
 enum class Pattern { made, kept };
 
-/// Runs `work(row, maker)` for all rows in parallel, with one maker a thread. What a row throws is
-/// thrown for the lowest.
+/// What one thread makes rows with.
+struct Tools {
+  RowMaker maker;
+  RowRuns runs;
+
+  explicit Tools(const RowSources& sources) : maker(sources), runs(sources) {}
+};
+
+/// Runs `work(row, end, tools)`, which treats some rows from `row` on and returns their number,
+/// until all rows are treated: in parallel, with tools for each thread. What a row throws is thrown
+/// for the lowest.
 template <class Work>
-void for_each_row(const RowSources& sources, const Work& work) {
+void for_all_rows(const RowSources& sources, const Work& work) {
   const int rows = sources.equations.size();
+  const int rows_at_once = nodes_at_once * sources.fields;
   ParallelErrors errors;
 #pragma omp parallel
   {
-    RowMaker maker(sources);
+    Tools tools(sources);
 #pragma omp for schedule(static)
     for (int first = 0; first < rows; first += rows_at_once) {
       errors.guard(first, [&] {
         const int end = std::min(rows - first, rows_at_once) + first;
-        for (int row = first; row < end; ++row) work(row, maker);
+        for (int row = first; row < end;) row += work(row, end, tools);
       });
     }
   }
@@ -43,8 +54,8 @@ void for_each_row(const RowSources& sources, const Work& work) {
 std::string place_of(const EquationRow& row, const NodeUnknowns& unknowns) {
   if (row.empty()) return "without terms";
   const int point = row.front().point;
-  const char* kind = point < unknowns.count ? "node" : "evaluation point";
-  return fmt::format("with terms at {} {}", kind, point);
+  if (point >= unknowns.count) return fmt::format("with terms at evaluation point {}", point);
+  return fmt::format("with terms at node {}", unknowns.number_of(point));
 }
 
 [[noreturn]] void refuse(int row, const RowSources& sources, const char* what) {
@@ -108,22 +119,80 @@ void check_columns(int row, std::span<const std::int64_t> columns, const LinearS
                   row, columns.size(), count));
 }
 
-void fill_rows(const RowSources& sources, Pattern pattern, LinearSystem& system) {
-  for_each_row(sources, [&](int row, RowMaker& maker) {
-    maker.make(row);
-    const std::span<const double> values = maker.values();
-    const std::span<const std::int64_t> columns = maker.columns();
-    const double scale = scale_of(row, values, sources);
-    const std::int64_t begin = system.offsets[row];
-    if (pattern == Pattern::kept) {
-      check_columns(row, columns, system);
+/// Makes one row, of whatever kind.
+void fill_row(const RowSources& sources, int row, Pattern pattern, RowMaker& maker,
+              LinearSystem& system) {
+  maker.make(row);
+  const std::span<const double> values = maker.values();
+  const double scale = scale_of(row, values, sources);
+  const std::int64_t begin = system.offsets[row];
+  if (pattern == Pattern::kept) {
+    check_columns(row, maker.columns(), system);
+  } else {
+    std::copy(maker.columns().begin(), maker.columns().end(), system.columns.data() + begin);
+  }
+  double* const scaled = system.values.data() + begin;
+  for (std::size_t i = 0; i < values.size(); ++i) scaled[i] = values[i] * scale;
+  system.row_scales[row] = scale;
+  system.right_hand_side[row] = sources.equations.right_hand_sides[row] * scale;
+}
+
+/// Makes the rows of a run; those that the kernel finds fault with are judged one by one.
+void fill_run(const RowSources& sources, int first, Pattern pattern, Tools& tools,
+              LinearSystem& system) {
+  const auto points = static_cast<int>(tools.runs.points().size());
+  const LargeArray<double>& row_weights = sources.equations.row_weights;
+  int other_columns = -1;
+  make_rows({.weight_offsets = sources.weights.offsets.data(),
+             .nodes = sources.weights.columns.data(),
+             .weights = sources.weights.values.data(),
+             .derivatives = sources.weights.per_entry,
+             .fields = sources.fields,
+             .coefficients = tools.runs.coefficients().data(),
+             .points = tools.runs.points().data(),
+             .count = points,
+             .offsets = system.offsets.data() + first,
+             .row_weights = row_weights.empty() ? nullptr : row_weights.data() + first,
+             .columns = system.columns.data(),
+             .values = system.values.data(),
+             .scales = system.row_scales.data() + first,
+             .other_columns = pattern == Pattern::kept ? &other_columns : nullptr});
+  const int end = other_columns >= 0 ? first + other_columns + 1 : first + points * sources.fields;
+  for (int row = first; row < end; ++row) {
+    const double right_hand_side = sources.equations.right_hand_sides[row];
+    const bool is_good = system.row_scales[row] > 0 && std::isfinite(right_hand_side);
+    if (row == first + other_columns || !is_good) {
+      fill_row(sources, row, pattern, tools.maker, system);
     } else {
-      std::copy(columns.begin(), columns.end(), system.columns.data() + begin);
+      system.right_hand_side[row] = right_hand_side * system.row_scales[row];
     }
-    double* const scaled = system.values.data() + begin;
-    for (std::size_t i = 0; i < values.size(); ++i) scaled[i] = values[i] * scale;
-    system.row_scales[row] = scale;
-    system.right_hand_side[row] = sources.equations.right_hand_sides[row] * scale;
+  }
+}
+
+void fill_rows(const RowSources& sources, Pattern pattern, LinearSystem& system) {
+  for_all_rows(sources, [&](int row, int end, Tools& tools) {
+    if (const int points = tools.runs.find(row, end); points > 0) {
+      fill_run(sources, row, pattern, tools, system);
+      return points * sources.fields;
+    }
+    fill_row(sources, row, pattern, tools.maker, system);
+    return 1;
+  });
+}
+
+/// Writes the number of entries of each row behind it.
+void count_entries(const RowSources& sources, LargeArray<std::int64_t>& offsets) {
+  for_all_rows(sources, [&](int row, int end, Tools& tools) {
+    std::int64_t* count = offsets.data() + row + 1;
+    if (tools.runs.find(row, end) == 0) {
+      *count = tools.maker.count(row);
+      return 1;
+    }
+    for (const int point : tools.runs.points()) {
+      const auto nodes = static_cast<std::int64_t>(sources.weights.nodes(point).size());
+      for (int r = 0; r < sources.fields; ++r) *count++ = nodes * sources.fields;
+    }
+    return static_cast<int>(tools.runs.points().size()) * sources.fields;
   });
 }
 
@@ -144,9 +213,8 @@ LinearSystem assemble(const EquationList& equations, const Weights& weights,
   system.offsets.resize(rows + 1);
   system.right_hand_side.resize(rows);
   system.row_scales.resize(rows);
-  for_each_row(sources,
-               [&](int row, RowMaker& maker) { system.offsets[row + 1] = maker.count(row); });
   system.offsets[0] = 0;
+  count_entries(sources, system.offsets);
   for (int row = 0; row < rows; ++row) system.offsets[row + 1] += system.offsets[row];
   system.columns.resize(system.offsets.back());
   system.values.resize(system.offsets.back());

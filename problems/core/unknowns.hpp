@@ -16,6 +16,12 @@ struct NodeUnknowns {
                                          ///< empty: none
   std::vector<int> field_axis{};         ///< (fields) axis of a vector's component, -1 for a scalar
 
+  std::vector<int> numbers{};  ///< what messages call the first nodes; empty: their ids
+
+  /// What messages call a node.
+  int number_of(int node) const {
+    return node < static_cast<int>(numbers.size()) ? numbers[node] : node;
+  }
   bool is_identity() const { return source.empty(); }
   /// -1 where the mirror image of a field has the opposite sign, else 1.
   double sign(int node, int field) const {
