@@ -40,7 +40,7 @@ struct Buffers {
 
   alignas(64) int ids[most_kernel_nodes + block];
   alignas(64) int rank[most_kernel_nodes];
-  int order[most_kernel_nodes];
+  int sorted[most_kernel_nodes];
   alignas(64) double coefficients[most_kernel_derivatives][width];
   alignas(64) double sums[most_kernel_nodes + lanes][width];
   alignas(64) std::int64_t columns[most_kernel_nodes * Fields];
@@ -59,25 +59,27 @@ void sort_nodes(const int* nodes, int count, Buffers<Fields>& work) {
   } else {
     rank_few<most_kernel_nodes / block>(work.ids, count, work.rank);
   }
-  for (int j = 0; j < count; ++j) work.order[work.rank[j]] = j;
+  for (int j = 0; j < count; ++j) work.sorted[work.rank[j]] = work.ids[j];
 }
 
-/// Sums of all rows at the sorted nodes: a node's derivatives times the coefficients.
+/// Sums of all rows at the nodes, put where the nodes belong: a node's derivatives times the
+/// coefficients. Weights are read as they lie in memory.
 template <int Fields>
 void add_up(const RowsTask& task, std::int64_t first, int count, Buffers<Fields>& work) {
   using Work = Buffers<Fields>;
   const int m = task.derivatives;
   for (int j = 0; j < count; ++j) {
-    const double* w = task.weights + (first + work.order[j]) * m;
+    const double* w = task.weights + (first + j) * m;
+    const int place = work.rank[j];
     if constexpr (Work::entries == 1) {
       double sum = 0;
       for (int d = 0; d < m; ++d) sum += w[d] * work.coefficients[d][0];
-      (&work.sums[0][0])[j] = sum;
+      (&work.sums[0][0])[place] = sum;
     } else {
       for (int e = 0; e < Work::width; e += lanes) {
         Pack sum = all(w[0]) * load(&work.coefficients[0][e]);
         for (int d = 1; d < m; ++d) sum = sum + all(w[d]) * load(&work.coefficients[d][e]);
-        store(&work.sums[j][e], sum);
+        store(&work.sums[place][e], sum);
       }
     }
   }
@@ -149,7 +151,7 @@ void write_values(int count, int row, double scale, const Buffers<Fields>& work,
 template <int Fields>
 void make_columns(int count, Buffers<Fields>& work) {
   for (int j = 0; j < count; ++j) {
-    const std::int64_t first = static_cast<std::int64_t>(work.ids[work.order[j]]) * Fields;
+    const std::int64_t first = static_cast<std::int64_t>(work.sorted[j]) * Fields;
     for (int f = 0; f < Fields; ++f) work.columns[j * Fields + f] = first + f;
   }
 }
