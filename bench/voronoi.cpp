@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <omp.h>
 
 #include "bench/goal.hpp"
 #include "bench/voronoi_rivals.hpp"
@@ -146,6 +147,7 @@ void add_goals(bool& failed) {
 }  // namespace strongpoint
 
 int main(int argc, char** argv) {
+  omp_set_num_threads(1);  // the rivals use one
   bool failed = false;
   strongpoint::add_goals<2>(failed);
   strongpoint::add_goals<3>(failed);

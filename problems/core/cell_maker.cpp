@@ -1,7 +1,9 @@
 #include "problems/core/cell_maker.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "problems/core/distance_gradient.hpp"
 
@@ -87,6 +89,7 @@ CellState CellMaker<Dim>::make(int node, std::span<const int> neighbours) {
 
 template <int Dim>
 void CellMaker<Dim>::make_unclipped(int node, std::span<const int> neighbours, double half_width) {
+  if (cut(node, neighbours, half_width, {})) return;
   const Point<Dim> half = Point<Dim>::Constant(half_width);
   cell_.reset(-half, half);
   clip_by_neighbours(node, neighbours);
@@ -94,11 +97,38 @@ void CellMaker<Dim>::make_unclipped(int node, std::span<const int> neighbours, d
 
 template <int Dim>
 void CellMaker<Dim>::clip(int node, std::span<const int> neighbours, double half_width) {
-  const Point<Dim> half = Point<Dim>::Constant(half_width);
-  cell_.reset(-half, half);
-  clip_by_marks(node);  // first: a smaller cell has a smaller security radius
-  clip_by_neighbours(node, neighbours);
+  // Marks first: a smaller cell has a smaller security radius.
+  if (!cut(node, neighbours, half_width, cloud_.marks_of(node))) {
+    const Point<Dim> half = Point<Dim>::Constant(half_width);
+    cell_.reset(-half, half);
+    clip_by_marks(node);
+    clip_by_neighbours(node, neighbours);
+  }
   clip_by_domain(cloud_.nodes.col(node));
+}
+
+/// In space: cuts the cell by the marks and the neighbours the fast way, false where that fails.
+template <int Dim>
+bool CellMaker<Dim>::cut(int node, std::span<const int> neighbours, double half_width,
+                         std::span<const BoundaryMark<Dim>> marks) {
+  if constexpr (Dim == 3) {
+    side_planes_.clear();
+    for (const BoundaryMark<3>& mark : marks) {
+      side_planes_.push_back(
+          {{mark.normal[0], mark.normal[1], mark.normal[2]}, side_label(mark.side)});
+    }
+    const std::array<std::int64_t, 2> offsets{0, static_cast<std::int64_t>(neighbours.size())};
+    double farthest = 0;
+    CutState state = CutState::broken;
+    cut_cells({cloud_.nodes.data(), &node, offsets.data(), neighbours.data(), 1,
+               side_planes_.data(), static_cast<int>(side_planes_.size()), &half_width, &work_,
+               nullptr, &farthest, &state});
+    if (state == CutState::broken) return false;
+    cell_.assign(work_);
+    return true;
+  } else {
+    return false;
+  }
 }
 
 template <int Dim>

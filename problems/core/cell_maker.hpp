@@ -1,6 +1,8 @@
 #pragma once
 
 #include <span>
+#include <type_traits>
+#include <vector>
 
 #include "problems/core/convex_cell.hpp"
 #include "problems/core/domain.hpp"
@@ -45,7 +47,12 @@ class CellMaker {
   const PointCloud<Dim>& cloud_;
   const Domain<Dim>& domain_;
   ConvexCell<Dim> cell_;
+  struct Nothing {};
+  std::conditional_t<Dim == 3, CutCell, Nothing> work_{};
+  std::vector<SidePlane> side_planes_;
 
+  bool cut(int node, std::span<const int> neighbours, double half_width,
+           std::span<const BoundaryMark<Dim>> marks);
   void clip(int node, std::span<const int> neighbours, double half_width);
   void clip_by_neighbours(int node, std::span<const int> neighbours);
   void clip_by_marks(int node);

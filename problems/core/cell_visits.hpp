@@ -15,7 +15,7 @@ namespace strongpoint {
 
 /// Neighbours tried first, by dimension, the node included: settling a cell takes all nodes within
 /// twice its radius, some three times as many as it has faces.
-inline constexpr int first_neighbours[] = {0, 6, 20, 48};
+inline constexpr int first_neighbours[] = {0, 6, 20, 64};
 
 /// Cells made between two searches: bounds the memory of their neighbour lists.
 inline constexpr std::size_t cell_batch_size = 32768;

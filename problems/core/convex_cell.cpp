@@ -141,6 +141,25 @@ void ConvexCell<3>::reset(const Point<3>& low, const Point<3>& high) {
   tolerance_ = relative_tolerance * (high - low).maxCoeff();
 }
 
+void ConvexCell<3>::assign(const CutCell& cell) {
+  vertices_.clear();
+  for (int v = 0; v < cell.vertices; ++v) vertices_.push_back({cell.x[v], cell.y[v], cell.z[v]});
+  faces_.clear();
+  std::array<char, 4 * CutCell::most_vertices> is_done{};
+  for (int first = 0; first < 4 * cell.vertices; ++first) {
+    if (is_done[first] != 0 || (first & 3) == 3) continue;
+    int edge = first;
+    do {
+      is_done[edge] = 1;
+      faces_.append(edge / 4);
+      const int other = cell.twin[edge];
+      edge = (other & 3) == 0 ? other + 2 : other - 1;  // the next one around the face to the left
+    } while (edge != first);
+    faces_.close(cell.label[cell.face[first]]);
+  }
+  tolerance_ = cell.tolerance;
+}
+
 Clip ConvexCell<3>::clip(const Point<3>& normal, double offset, int label) {
   const Clip outcome = classify<3>(vertices_, normal, offset, tolerance_, height_);
   if (outcome == Clip::emptied) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "methods/core/points.hpp"
+#include "problems/core/cut_cells.hpp"
 
 namespace strongpoint {
 
@@ -75,6 +76,8 @@ class ConvexCell<3> {
  public:
   /// Starts over with the box between two corners.
   void reset(const Point<3>& low, const Point<3>& high);
+  /// Takes over a cell that was cut elsewhere.
+  void assign(const CutCell& cell);
   /// Keeps {x: normal.x <= offset}; the normal has unit length.
   Clip clip(const Point<3>& normal, double offset, int label = unlabelled);
   /// Volume, 0 when empty.

@@ -17,21 +17,27 @@ struct Plane {
   double tolerance;  ///< for heights in units of the normal
 };
 
-/// The vertices above a plane, ascending.
+/// The vertices above a plane.
 struct Outside {
   int count;
-  int vertex[CutCell::most_vertices];
+  int vertex[CutCell::most_vertices];             ///< ascending
+  unsigned bits[CutCell::most_vertices / lanes];  ///< of packs of vertices
+
+  /// 1 for a vertex above, 0 for one below.
+  unsigned holds(int v) const { return bits[v / lanes] >> v % lanes & 1U; }
 };
 
-/// The edges that cross a plane, in order around the new face, and what becomes of them.
+/// The edges that cross a plane, from above, and the new vertices on them.
 struct Rim {
   int count;
-  int inner[most_crossings];           ///< edge from the end that stays
-  unsigned char face[most_crossings];  ///< to the left of the edge from the end that goes
+  int outer[3 * CutCell::most_vertices];  ///< vertex above; the last entries are overwritten
+  int inner[3 * CutCell::most_vertices];  ///< edge as it leaves the vertex below
+  int left[3 * CutCell::most_vertices];   ///< face to the left, seen from above
+  int place[most_crossings];              ///< of the new vertex
+  int next[most_crossings];  ///< the crossing before it on the face to the left: goes around the
+                             ///< rim
   double x[most_crossings], y[most_crossings], z[most_crossings];
 };
-
-int next_slot(int edge) { return (edge & 3) == 2 ? edge - 2 : edge + 1; }
 
 /// Starts over with the cube of a half width. Slots 0, 1, 2 of a corner are its edges along x, y, z
 /// where an even number of its coordinates are low, and along x, z, y elsewhere.
@@ -68,59 +74,62 @@ void classify(CutCell& cell, const Plane& plane, Outside& outside) {
   const Pack x = all(plane.x), y = all(plane.y), z = all(plane.z);
   const Pack offset = all(plane.offset);
   const Pack tolerance = all(plane.tolerance);
-  unsigned above[CutCell::most_vertices / lanes];
   unsigned any = 0;
   for (int first = 0, p = 0; first < cell.vertices; first += lanes, ++p) {
     const Pack height =
         x * load(cell.x + first) + y * load(cell.y + first) + (z * load(cell.z + first) - offset);
     store(cell.height + first, height);
-    above[p] = less(tolerance, height);
-    any |= above[p];
+    outside.bits[p] = less(tolerance, height);
+    any |= outside.bits[p];
   }
   outside.count = 0;
   if (any == 0) return;
   for (int first = 0, p = 0; first < cell.vertices; first += lanes, ++p) {
-    for (unsigned bits = above[p]; bits != 0; bits &= bits - 1) {
+    for (unsigned bits = outside.bits[p]; bits != 0; bits &= bits - 1) {
       outside.vertex[outside.count++] = first + __builtin_ctz(bits);
     }
   }
 }
 
-/// Walks around the vertices above the plane, from each edge that crosses it to the one before it
-/// on the face to its left. False unless that passes all crossings.
-bool find_rim(const CutCell& cell, const Outside& outside, double tolerance, Rim& rim) {
-  const auto is_outside = [&](int edge) { return cell.height[edge >> 2] > tolerance; };
-  int crossings = 0;
-  int start = -1;
+/// Finds the edges that cross the plane, without branches that depend on the shape.
+void find_crossings(CutCell& cell, const Outside& outside, Rim& rim) {
+  int count = 0;
   for (int i = 0; i < outside.count; ++i) {
-    for (int s = 0; s < 3; ++s) {
-      const int edge = 4 * outside.vertex[i] + s;
-      if (is_outside(cell.twin[edge])) continue;
-      ++crossings;
-      start = edge;
+    const int outer = outside.vertex[i];
+    for (int edge = 4 * outer; edge < 4 * outer + 3; ++edge) {
+      const int inner = cell.twin[edge];
+      const bool crosses = outside.holds(inner >> 2) == 0;
+      rim.outer[count] = outer;
+      rim.inner[count] = inner;
+      rim.left[count] = cell.face[edge];
+      cell.crossing[crosses ? cell.face[inner] : CutCell::most_faces] =
+          static_cast<unsigned char>(count);
+      count += static_cast<int>(crosses);
     }
   }
-  if (crossings < 3 || crossings > most_crossings) return false;
-  rim.count = 0;
-  int edge = start;
-  do {
-    if (rim.count == crossings) return false;
-    const int inner = cell.twin[edge];
-    const double height = cell.height[inner >> 2];
-    const double above = cell.height[edge >> 2];
-    const double t = height < 0 ? height / (height - above) : 0;
-    const int a = inner >> 2;
-    const int b = edge >> 2;
-    rim.inner[rim.count] = inner;
-    rim.face[rim.count] = cell.face[edge];
-    rim.x[rim.count] = cell.x[a] + t * (cell.x[b] - cell.x[a]);
-    rim.y[rim.count] = cell.y[a] + t * (cell.y[b] - cell.y[a]);
-    rim.z[rim.count] = cell.z[a] + t * (cell.z[b] - cell.z[a]);
-    ++rim.count;
-    edge = next_slot(edge);
-    while (is_outside(cell.twin[edge])) edge = next_slot(cell.twin[edge]);
-  } while (edge != start);
-  return rim.count == crossings;
+  rim.count = count;
+}
+
+/// Puts vertices where edges cross the plane, in the places of those that go, then at the end.
+/// False unless each face that is crossed is entered and left once.
+bool place_rim(const CutCell& cell, const Outside& outside, Rim& rim) {
+  bool is_sound = true;
+  std::uint64_t entered = 0;
+  for (int i = 0; i < rim.count; ++i) {
+    const int next = cell.crossing[rim.left[i]] % most_crossings;
+    is_sound &= cell.face[rim.inner[next]] == rim.left[i];
+    entered |= std::uint64_t{1} << next;
+    rim.next[i] = next;
+    rim.place[i] = i < outside.count ? outside.vertex[i] : cell.vertices + i - outside.count;
+    const int a = rim.inner[i] >> 2;
+    const int b = rim.outer[i];
+    const double height = cell.height[a];
+    const double t = height < 0 ? height / (height - cell.height[b]) : 0;
+    rim.x[i] = cell.x[a] + t * (cell.x[b] - cell.x[a]);
+    rim.y[i] = cell.y[a] + t * (cell.y[b] - cell.y[a]);
+    rim.z[i] = cell.z[a] + t * (cell.z[b] - cell.z[a]);
+  }
+  return is_sound && entered == ~std::uint64_t{0} >> (most_crossings - rim.count);
 }
 
 /// Moves a vertex to a free place.
@@ -137,29 +146,23 @@ void move_vertex(CutCell& cell, int from, int to) {
   }
 }
 
-/// Puts the new vertices in the places of those that go, joins them around the new face, and closes
-/// the gaps.
+/// Puts in the new vertices, joins them around the new face, and closes the gaps.
 void join_rim(CutCell& cell, const Outside& outside, const Rim& rim) {
-  const auto place = [&](int i) {
-    return i < outside.count ? outside.vertex[i] : cell.vertices + i - outside.count;
-  };
   const auto new_face = static_cast<unsigned char>(cell.faces - 1);
-  int before = rim.count - 1;
   for (int i = 0; i < rim.count; ++i) {
-    const int v = place(i);
+    const int v = rim.place[i];
     cell.x[v] = rim.x[i];
     cell.y[v] = rim.y[i];
     cell.z[v] = rim.z[i];
     cell.squared[v] = rim.x[i] * rim.x[i] + rim.y[i] * rim.y[i] + rim.z[i] * rim.z[i];
     cell.twin[4 * v] = static_cast<unsigned short>(rim.inner[i]);
     cell.twin[rim.inner[i]] = static_cast<unsigned short>(4 * v);
-    const int last = place(before);
-    cell.twin[4 * v + 2] = static_cast<unsigned short>(4 * last + 1);
-    cell.twin[4 * last + 1] = static_cast<unsigned short>(4 * v + 2);
-    cell.face[4 * v] = rim.face[i];
+    cell.face[4 * v] = static_cast<unsigned char>(rim.left[i]);
     cell.face[4 * v + 1] = new_face;
-    cell.face[4 * v + 2] = rim.face[before];
-    before = i;
+    const int to = rim.place[rim.next[i]];
+    cell.twin[4 * v + 1] = static_cast<unsigned short>(4 * to + 2);
+    cell.twin[4 * to + 2] = static_cast<unsigned short>(4 * v + 1);
+    cell.face[4 * to + 2] = static_cast<unsigned char>(rim.left[i]);
   }
   if (rim.count >= outside.count) {
     cell.vertices += rim.count - outside.count;
@@ -180,9 +183,10 @@ Outcome cut(CutCell& cell, const Plane& plane, int label) {
   classify(cell, plane, outside);
   if (outside.count == 0) return Outcome::untouched;
   Rim rim;
-  if (outside.count == cell.vertices || cell.faces == CutCell::most_faces ||
-      !find_rim(cell, outside, plane.tolerance, rim) ||
-      cell.vertices + rim.count - outside.count > CutCell::most_vertices) {
+  find_crossings(cell, outside, rim);
+  if (rim.count < 3 || rim.count > most_crossings || cell.faces == CutCell::most_faces ||
+      cell.vertices + rim.count - outside.count > CutCell::most_vertices ||
+      !place_rim(cell, outside, rim)) {
     return Outcome::broken;
   }
   const double square = plane.x * plane.x + plane.y * plane.y + plane.z * plane.z;
@@ -208,22 +212,19 @@ double farthest_squared(const CutCell& cell) {
   return largest;
 }
 
-/// Volume by pyramids from the origin: a sixth of foot.(a x b) over the edges ab of all faces, each
-/// edge once for the two faces beside it.
+/// Volume by pyramids from the origin: a sixth of foot.(a x b) over the edges ab of all faces.
 double volume(const CutCell& cell) {
   double six_times = 0;
   for (int a = 0; a < cell.vertices; ++a) {
+    double x = 0, y = 0, z = 0;
     for (int s = 0; s < 3; ++s) {
-      const int edge = 4 * a + s;
-      const int other = cell.twin[edge];
-      const int b = other >> 2;
-      if (b < a) continue;
-      const double* const left = cell.foot[cell.face[edge]];
-      const double* const right = cell.foot[cell.face[other]];
-      six_times += (left[0] - right[0]) * (cell.y[a] * cell.z[b] - cell.z[a] * cell.y[b]) +
-                   (left[1] - right[1]) * (cell.z[a] * cell.x[b] - cell.x[a] * cell.z[b]) +
-                   (left[2] - right[2]) * (cell.x[a] * cell.y[b] - cell.y[a] * cell.x[b]);
+      const int b = cell.twin[4 * a + s] >> 2;
+      const double* const foot = cell.foot[cell.face[4 * a + s]];
+      x += cell.y[b] * foot[2] - cell.z[b] * foot[1];
+      y += cell.z[b] * foot[0] - cell.x[b] * foot[2];
+      z += cell.x[b] * foot[1] - cell.y[b] * foot[0];
     }
+    six_times += cell.x[a] * x + cell.y[a] * y + cell.z[a] * z;
   }
   return six_times / 6;
 }
@@ -238,6 +239,7 @@ bool cut_cell(const CutTask& task, int row, CutCell& cell) {
   }
   const double* const node = task.nodes + 3 * static_cast<long>(task.chosen[row]);
   double security = 4 * farthest_squared(cell);
+  bool is_smaller = false;  // than `security` says
   for (std::int64_t i = task.offsets[row]; i < task.offsets[row + 1]; ++i) {
     if (task.ids[i] == task.chosen[row]) continue;
     const double* const other = task.nodes + 3 * static_cast<long>(task.ids[i]);
@@ -249,7 +251,8 @@ bool cut_cell(const CutTask& task, int row, CutCell& cell) {
     plane.tolerance = cell.tolerance * __builtin_sqrt(square);
     const Outcome outcome = cut(cell, plane, task.ids[i]);
     if (outcome == Outcome::broken) return false;
-    if (outcome == Outcome::cut) security = 4 * farthest_squared(cell);
+    if (is_smaller && outcome == Outcome::untouched) security = 4 * farthest_squared(cell);
+    is_smaller = outcome == Outcome::cut;
   }
   return true;
 }

@@ -18,6 +18,7 @@ struct CutCell {
   double height[most_vertices];            ///< above the plane tried last
   unsigned short twin[4 * most_vertices];  ///< the same edge from its other end
   unsigned char face[4 * most_vertices];   ///< to the left of an edge as it leaves
+  unsigned char crossing[most_faces + 1];  ///< of faces by the plane tried last
   double foot[most_faces][3];              ///< of the perpendicular on a face from the origin
   int label[most_faces];                   ///< of what made a face
   int vertices = 0;
