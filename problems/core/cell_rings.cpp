@@ -148,7 +148,7 @@ void walk_around(const RingTask& task, int first, const Arms& arms) {
 }  // namespace
 
 void find_cell_rings(const RingTask& task) {
-  Arms arms;
+  Arms arms{};
   for (int first = 0; first < task.count; first += lanes) {
     gather(task, first, arms);
     walk_around(task, first, arms);

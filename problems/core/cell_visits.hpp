@@ -46,7 +46,7 @@ void visit_batch(std::span<const int> nodes, const Stencils& neighbours, MakeWor
     auto worker = make_worker();
 #pragma omp for schedule(dynamic, 1)
     for (int b = 0; b < blocks; ++b) {
-      const auto first = static_cast<std::size_t>(b * cell_block_size);
+      const auto first = static_cast<std::size_t>(b) * cell_block_size;
       const std::size_t size = std::min<std::size_t>(cell_block_size, nodes.size() - first);
       errors.guard(b, [&] {
         worker(CellBlock{nodes.subspan(first, size), neighbours, static_cast<int>(first),

@@ -117,7 +117,7 @@ bool place_rim(const CutCell& cell, const Outside& outside, Rim& rim) {
   std::uint64_t entered = 0;
   for (int i = 0; i < rim.count; ++i) {
     const int next = cell.crossing[rim.left[i]] % most_crossings;
-    is_sound &= cell.face[rim.inner[next]] == rim.left[i];
+    is_sound = is_sound && next < rim.count && cell.face[rim.inner[next]] == rim.left[i];
     entered |= std::uint64_t{1} << next;
     rim.next[i] = next;
     rim.place[i] = i < outside.count ? outside.vertex[i] : cell.vertices + i - outside.count;
