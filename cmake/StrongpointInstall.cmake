@@ -15,4 +15,5 @@ write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/strongpoint-config-
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/strongpoint-config.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/strongpoint-config-version.cmake
               cmake/FindUmfpack.cmake cmake/FindSpqr.cmake cmake/FindGmsh.cmake cmake/FindLapacke.cmake
+              cmake/FindMetis.cmake cmake/FindMumps.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/strongpoint)

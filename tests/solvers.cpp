@@ -156,8 +156,9 @@ TEST(Solvers, CheckTheirOptionsWhenTheSpecIsRead) {
   has(message_of<UsageError>([] { canonical_solver("bicgstab[drop=-1]"); }), "drop=-1");
   has(message_of<UsageError>([] { canonical_solver("bicgstab[iterations=0]"); }), "iterations=0");
   has(message_of<UsageError>([] { canonical_solver("bicgstab[tolerance=1]"); }), "tolerance=1");
-  has(message_of<UsageError>([] { canonical_solver("bicgstab[fil=2]"); }), "drop, fill, tolerance");
-  has(message_of<UsageError>([] { canonical_solver("umfpack[fill=2]"); }), "takes none");
+  has(message_of<UsageError>([] { canonical_solver("bicgstab[fil=2]"); }),
+      "precond, drop, fill, tolerance");
+  has(message_of<UsageError>([] { canonical_solver("umfpack[fill=2]"); }), "ordering");
   EXPECT_TRUE(is_iterative("bicgstab[fill=3]"));
   EXPECT_FALSE(is_iterative("umfpack"));
 }

@@ -5,27 +5,17 @@
 
 #include <Eigen/Core>
 
+#include "problems/core/krylov.hpp"
+
 namespace strongpoint {
 
 /// BiCGSTAB with right preconditioning, whose residual is that of the system itself. Source: van
-/// der Vorst 1992, in the form of Saad 2003, section 9.3. Deviations: the residual is computed anew
-/// from the solution before it counts as converged, and where the recursion has drifted from it or
-/// has broken down the iteration restarts from there.
+/// der Vorst 1992, in the form of Saad 2003, section 9.3. Deviation: restarted as `restarted` does.
 class Bicgstab {
  public:
-  /// What stops the iteration.
-  struct Parameters {
-    double tolerance = 1e-9;  ///< on |b - A x| / |b|, 2-norms
-    int iterations = 1000;    ///< at most; each multiplies by A and preconditions twice
-    int restarts = 1;         ///< after breakdowns
-  };
-  /// How it went.
-  enum class Outcome { converged, iterations_exhausted, breakdown };
-  struct Report {
-    Outcome outcome;
-    int iterations;
-    double residual;  ///< |b - A x| / |b| of the solution given, 2-norms
-  };
+  using Parameters = KrylovLimits;
+  using Outcome = KrylovOutcome;
+  using Report = KrylovReport;
 
   /// Allocates the vectors for systems of `unknowns`.
   Bicgstab(Eigen::Index unknowns, const Parameters& parameters)
@@ -65,21 +55,13 @@ class Bicgstab {
 template <class Matrix, class Preconditioner>
 Bicgstab::Report Bicgstab::solve(const Matrix& matrix, const Preconditioner& preconditioner,
                                  const Eigen::VectorXd& b, Eigen::VectorXd& x) {
-  const double size = b.norm();
-  if (size == 0) x.setZero();
   iteration_ = 0;
-  int breakdowns = 0;
-  while (true) {
-    matrix.multiply(x, r_);
-    r_ = b - r_;
-    const double residual = size > 0 ? r_.norm() / size : 0;
-    const auto report = [&](Outcome outcome) { return Report{outcome, iteration_, residual}; };
-    if (residual <= parameters_.tolerance) return report(Outcome::converged);
-    if (breakdowns > parameters_.restarts) return report(Outcome::breakdown);
-    if (iteration_ >= parameters_.iterations) return report(Outcome::iterations_exhausted);
-    const End end = run(matrix, preconditioner, parameters_.tolerance * size, x);
-    if (end == End::breakdown) ++breakdowns;
-  }
+  return restarted(matrix, b, parameters_, r_, x, [&](double wanted, int& iterations) {
+    iteration_ = iterations;
+    const End end = run(matrix, preconditioner, wanted, x);
+    iterations = iteration_;
+    return end == End::breakdown;
+  });
 }
 
 template <class Matrix, class Preconditioner>

@@ -10,33 +10,6 @@
 namespace strongpoint {
 namespace {
 
-/// Inverts a block by Gauss-Jordan elimination with row pivoting; false when a pivot is at most
-/// `least`.
-template <int Size>
-bool invert(Eigen::Matrix<double, Size, Size> block, double least,
-            Eigen::Matrix<double, Size, Size>& inverse) {
-  inverse.setIdentity();
-  for (int k = 0; k < Size; ++k) {
-    int best = k;
-    for (int row = k + 1; row < Size; ++row) {
-      if (std::abs(block(row, k)) > std::abs(block(best, k))) best = row;
-    }
-    if (!(std::abs(block(best, k)) > least)) return false;
-    block.row(k).swap(block.row(best));
-    inverse.row(k).swap(inverse.row(best));
-    const double pivot = block(k, k);
-    block.row(k) /= pivot;
-    inverse.row(k) /= pivot;
-    for (int row = 0; row < Size; ++row) {
-      if (row == k) continue;
-      const double factor = block(row, k);
-      block.row(row) -= factor * block.row(k);
-      inverse.row(row) -= factor * inverse.row(k);
-    }
-  }
-  return true;
-}
-
 /// One row of an incomplete factorisation in the matrix' own pattern; `place` finds its blocks by
 /// column and is -1 elsewhere.
 template <int Size>
@@ -102,6 +75,31 @@ class PatternRow {
 }  // namespace
 
 template <int Size>
+bool invert_block(Eigen::Matrix<double, Size, Size> block, double least,
+                  Eigen::Matrix<double, Size, Size>& inverse) {
+  inverse.setIdentity();
+  for (int k = 0; k < Size; ++k) {
+    int best = k;
+    for (int row = k + 1; row < Size; ++row) {
+      if (std::abs(block(row, k)) > std::abs(block(best, k))) best = row;
+    }
+    if (!(std::abs(block(best, k)) > least)) return false;
+    block.row(k).swap(block.row(best));
+    inverse.row(k).swap(inverse.row(best));
+    const double pivot = block(k, k);
+    block.row(k) /= pivot;
+    inverse.row(k) /= pivot;
+    for (int row = 0; row < Size; ++row) {
+      if (row == k) continue;
+      const double factor = block(row, k);
+      block.row(row) -= factor * block.row(k);
+      inverse.row(row) -= factor * inverse.row(k);
+    }
+  }
+  return true;
+}
+
+template <int Size>
 void SingleMatrix<Size>::reserve(int row_count, std::int64_t blocks) {
   offsets.reserve(row_count + 1);
   columns.reserve(blocks);
@@ -121,7 +119,7 @@ void BlockFactors<Size>::append_pivot(const Block& pivot, double shift) {
   constexpr double least_share = 1e-6;
   Block inverse;
   Block changed = pivot;
-  if (!invert<Size>(changed, least_share * shift, inverse)) {
+  if (!invert_block<Size>(changed, least_share * shift, inverse)) {
     ++shifted;
     do {
       if (!std::isfinite(shift) || !(shift > 0) || !pivot.allFinite()) {
@@ -129,7 +127,7 @@ void BlockFactors<Size>::append_pivot(const Block& pivot, double shift) {
       }
       changed = pivot + shift * Block::Identity();
       shift *= 2;
-    } while (!invert<Size>(changed, least_share * shift, inverse));
+    } while (!invert_block<Size>(changed, least_share * shift, inverse));
   }
   pivots.insert(pivots.end(), inverse.data(), inverse.data() + entries);
 }
@@ -172,6 +170,8 @@ BlockFactors<Size> block_ilu0(const BlockMatrix<Size>& matrix) {
 }
 
 #define STRONGPOINT_INSTANTIATE(size) /* every block size that a solver takes */ \
+  template bool invert_block(Eigen::Matrix<double, size, size>, double,          \
+                             Eigen::Matrix<double, size, size>&);                \
   template struct SingleMatrix<size>;                                            \
   template class BlockFactors<size>;                                             \
   template BlockFactors<size> block_ilu0(const BlockMatrix<size>&);

@@ -10,6 +10,12 @@
 
 namespace strongpoint {
 
+/// Inverts a block by Gauss-Jordan elimination with row pivoting; false when a pivot is at most
+/// `least`.
+template <int Size>
+bool invert_block(Eigen::Matrix<double, Size, Size> block, double least,
+                  Eigen::Matrix<double, Size, Size>& inverse);
+
 /// A sparse matrix of dense blocks in compressed rows, in single precision and stored by columns.
 template <int Size>
 struct SingleMatrix {

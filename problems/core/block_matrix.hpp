@@ -21,6 +21,10 @@ struct BlockMatrix {
   std::vector<double> values;            ///< (blocks * entries + block_padding)
 
   int rows() const { return static_cast<int>(offsets.size()) - 1; }
+  std::size_t bytes() const {
+    return offsets.size() * sizeof(std::int64_t) + columns.size() * sizeof(int) +
+           values.size() * sizeof(double);
+  }
   /// y = A x; the same bits on any number of threads.
   void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
 };

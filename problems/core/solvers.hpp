@@ -22,6 +22,7 @@ struct LinearSystem {
   LargeArray<double> row_scales;        ///< (rows) what each equation was multiplied by
   int fields = 1;                       ///< unknown = node * fields + field
   std::int64_t width = 0;               ///< number of unknowns; 0: as many as rows
+  int dimension = 0;                    ///< of the space the nodes lie in; 0: not known
   std::vector<int> order;  ///< (nodes) in which incomplete factors eliminate them; empty: as is
 
   std::int64_t rows() const { return static_cast<std::int64_t>(offsets.size()) - 1; }
@@ -34,6 +35,8 @@ struct LinearSolution {
   double residual = 0;  ///< |b - A x| / (|A| |x| + |b|), maximum norm; of an overdetermined system
                         ///< the smaller of this and |A^T r| / (|A^T| |r|), r = b - A x
   int iterations = 0;   ///< 0 with a direct solver
+  std::size_t bytes = 0;  ///< most memory that the solver counted beside the system; 0: not counted
+  std::string solver;     ///< what solved it, where the solver has a choice; otherwise empty
 };
 
 /// Rows whose residual is above this have not been solved.

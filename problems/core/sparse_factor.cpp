@@ -6,6 +6,8 @@
 
 #include <umfpack.h>
 
+#include "problems/core/node_ordering.hpp"
+
 namespace strongpoint {
 namespace {
 
@@ -45,6 +47,25 @@ struct SparseFactor::Objects {
     umfpack_dl_free_symbolic(&symbolic);
     umfpack_dl_free_numeric(&numeric);
   }
+  /// Orders the unknowns and analyses the pattern; gives UMFPACK's status.
+  SuiteSparse_long analyse(const Eigen::Map<const RowMatrix>& matrix, Ordering ordering, int fields,
+                           double* info) {
+    const SuiteSparse_long n = matrix.rows();
+    const SuiteSparse_long* offsets = as_long(matrix.outerIndexPtr());
+    const SuiteSparse_long* columns = as_long(matrix.innerIndexPtr());
+    if (ordering == Ordering::least_fill) control[UMFPACK_ORDERING] = UMFPACK_ORDERING_BEST;
+    if (ordering == Ordering::nodes) {
+      const std::vector<std::int64_t> order = node_ordering(matrix, fields);
+      if (!order.empty()) {
+        control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
+        return umfpack_dl_qsymbolic(n, n, offsets, columns, matrix.valuePtr(),
+                                    as_long(order.data()), &symbolic, control.data(), info);
+      }
+    }
+    return umfpack_dl_symbolic(n, n, offsets, columns, matrix.valuePtr(), &symbolic, control.data(),
+                               info);
+  }
+
   std::array<double, UMFPACK_CONTROL> control{}, plain{};
   std::vector<SuiteSparse_long> indices;
   std::vector<double> numbers;
@@ -53,23 +74,18 @@ struct SparseFactor::Objects {
 };
 
 /// The rows are handed over as the columns of the transpose.
-SparseFactor::SparseFactor(const Eigen::Map<const RowMatrix>& matrix, Ordering ordering)
+SparseFactor::SparseFactor(const Eigen::Map<const RowMatrix>& matrix, Ordering ordering, int fields)
     : matrix_(matrix), objects_(std::make_unique<Objects>(matrix.rows())) {
-  const SuiteSparse_long n = matrix_.rows();
   const SuiteSparse_long* offsets = as_long(matrix_.outerIndexPtr());
   const SuiteSparse_long* columns = as_long(matrix_.innerIndexPtr());
-  const double* values = matrix_.valuePtr();
-  const double* control = objects_->control.data();
-  if (ordering == Ordering::least_fill) {
-    objects_->control[UMFPACK_ORDERING] = UMFPACK_ORDERING_BEST;
-  }
-  SuiteSparse_long status =
-      umfpack_dl_symbolic(n, n, offsets, columns, values, &objects_->symbolic, control, nullptr);
+  std::array<double, UMFPACK_INFO> info{};
+  SuiteSparse_long status = objects_->analyse(matrix_, ordering, fields, info.data());
   if (status == UMFPACK_OK) {
-    std::array<double, UMFPACK_INFO> info{};
-    status = umfpack_dl_numeric(offsets, columns, values, objects_->symbolic, &objects_->numeric,
-                                control, info.data());
+    status = umfpack_dl_numeric(offsets, columns, matrix_.valuePtr(), objects_->symbolic,
+                                &objects_->numeric, objects_->control.data(), info.data());
     pivot_ratio_ = info[UMFPACK_RCOND];
+    bytes_ = static_cast<std::size_t>(info[UMFPACK_NUMERIC_SIZE] * info[UMFPACK_SIZE_OF_UNIT]);
+    peak_bytes_ = static_cast<std::size_t>(info[UMFPACK_PEAK_MEMORY] * info[UMFPACK_SIZE_OF_UNIT]);
   }
   umfpack_dl_free_symbolic(&objects_->symbolic);
   status_ = static_cast<int>(status);

@@ -10,20 +10,25 @@ namespace strongpoint {
 /// A sparse matrix in compressed rows with 64-bit indices.
 using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, std::int64_t>;
 
-/// LU factors of a square sparse matrix, made once, for many right-hand sides: UMFPACK with full
-/// partial pivoting. Source: Davis 2004, UMFPACK.
+/// LU factors of a square sparse matrix, made once, for many right-hand sides, by UMFPACK. Source:
+/// Davis 2004, UMFPACK.
 class SparseFactor {
  public:
   /// What can be wrong with a matrix.
   enum class Fault { none, singular, out_of_memory, other };
 
-  /// How unknowns are ordered: as UMFPACK does by default, or in the way of all it knows that fills
-  /// the factors least, for factors that solve many times.
-  enum class Ordering { usual, least_fill };
+  /// How unknowns are ordered and pivots chosen.
+  enum class Ordering {
+    usual,       ///< UMFPACK's default, full partial pivoting where it finds no symmetric pattern
+    least_fill,  ///< that of all it knows with the least fill, for factors that solve many times
+    nodes        ///< nested dissection of the nodes, pivots on the diagonal but for tiny ones: the
+                 ///< caller has to judge the residual
+  };
 
-  /// Factorises a matrix in compressed rows, which must live as long as the factors.
+  /// Factorises a matrix in compressed rows, which must live as long as the factors. `fields`
+  /// unknowns in turn belong to a node, for `Ordering::nodes`.
   explicit SparseFactor(const Eigen::Map<const RowMatrix>& matrix,
-                        Ordering ordering = Ordering::usual);
+                        Ordering ordering = Ordering::usual, int fields = 1);
   SparseFactor(const SparseFactor&) = delete;
   SparseFactor& operator=(const SparseFactor&) = delete;
   ~SparseFactor();
@@ -34,6 +39,10 @@ class SparseFactor {
   /// UMFPACK's estimate of the reciprocal condition, the smallest over the largest pivot of the
   /// rows as it scales them.
   double pivot_ratio() const { return pivot_ratio_; }
+  /// Memory of the factors.
+  std::size_t bytes() const { return bytes_; }
+  /// Most memory that the factorisation took, factors included.
+  std::size_t peak_bytes() const { return peak_bytes_; }
   /// Steps of iterative refinement after a solve: none, or as many as UMFPACK takes by default,
   /// which suits who solves once.
   enum class Refinement { none, usual };
@@ -48,6 +57,8 @@ class SparseFactor {
   Fault fault_ = Fault::none;
   int status_ = 0;
   double pivot_ratio_ = 0;
+  std::size_t bytes_ = 0;
+  std::size_t peak_bytes_ = 0;
 };
 
 }  // namespace strongpoint

@@ -222,6 +222,7 @@ CaseResult solve_steady(const SteadyProblem<Dim>& problem, const CaseKey& key,
   LinearSystem system = clock.time(times.assemble, [&] {
     return assemble(scene.equations(scene.derivatives), scene.weights, scene.unknowns, field_count);
   });
+  system.dimension = Dim;
   if (is_iterative(key.solver)) {
     clock.time(times.solve, [&] { system.order = order_along(first_coordinates(scene)); });
   }

@@ -1,3 +1,5 @@
+#include <string>
+
 #include <fmt/format.h>
 
 #include "methods/core/error.hpp"
@@ -7,8 +9,21 @@
 namespace strongpoint {
 namespace {
 
-LinearSolution solve_umfpack(const LinearSystem& system) {
-  const SparseFactor factor(view_of(system));
+/// How the unknowns are ordered: `choose` takes one of the other two.
+enum class Choice { choose, usual, metis };
+
+/// Whether nested dissection of the nodes pays: its analysis costs a second for 1e5 nodes and
+/// 30 neighbours each. Measured against UMFPACK's defaults, seconds: 2D elasticity 6.7k nodes 0.15
+/// and 0.13, 104k nodes 3.9 and 4.4; 2D Poisson, fourth order, 100k nodes 2.7 and 2.3; 3D
+/// elasticity 4.7k nodes 1.1 and 1.5.
+bool metis_pays(const LinearSystem& system) {
+  constexpr std::int64_t many_unknowns = 100'000;
+  constexpr std::int64_t some_unknowns = 5'000;
+  if (system.dimension >= 3 || system.fields >= 3) return system.unknowns() >= some_unknowns;
+  return system.fields == 2 && system.unknowns() >= many_unknowns;
+}
+
+void check(const SparseFactor& factor, const LinearSystem& system) {
   switch (factor.fault()) {
     case SparseFactor::Fault::none:
       break;
@@ -19,21 +34,64 @@ LinearSolution solve_umfpack(const LinearSystem& system) {
     case SparseFactor::Fault::other:
       throw CaseError(fmt::format("umfpack: failed with status {}", factor.status()));
   }
+}
+
+/// Largest residual, relative to the right-hand side and the largest product of a row: what full
+/// pivoting and two steps of refinement leave is round-off.
+double residual_of(const LinearSystem& system, const Eigen::VectorXd& x) {
+  const Eigen::VectorXd residual = system.right_hand_side - view_of(system) * x;
+  const double size =
+      system.right_hand_side.lpNorm<Eigen::Infinity>() + x.lpNorm<Eigen::Infinity>();
+  return residual.lpNorm<Eigen::Infinity>() / size;
+}
+
+/// Solves with factors in an order; the solution is not finite where they have a fault.
+LinearSolution solve_with(const LinearSystem& system, const SparseFactor& factor) {
   LinearSolution solution;
+  solution.bytes = factor.peak_bytes();
   solution.x.resize(system.rows());
   factor.solve(system.right_hand_side.data(), solution.x.data(), SparseFactor::Refinement::usual);
   return solution;
 }
 
+LinearSolution solve_umfpack(const LinearSystem& system, Choice choice) {
+  using Ordering = SparseFactor::Ordering;
+  const RowMajorView matrix = view_of(system);
+  if (choice == Choice::metis || (choice == Choice::choose && metis_pays(system))) {
+    // Rows have a largest entry of 1: what is above round-off by this much lost digits to pivots on
+    // the diagonal, and is solved again with full pivoting.
+    constexpr double largest_residual_kept = 1e-13;
+    const SparseFactor factor(matrix, Ordering::nodes, system.fields);
+    if (factor.fault() == SparseFactor::Fault::out_of_memory) check(factor, system);
+    if (factor.fault() == SparseFactor::Fault::none) {
+      LinearSolution solution = solve_with(system, factor);
+      if (residual_of(system, solution.x) <= largest_residual_kept) return solution;
+    }
+  }
+  const SparseFactor factor(matrix, Ordering::usual);
+  check(factor, system);
+  return solve_with(system, factor);
+}
+
 }  // namespace
 
 /// Direct factorisation with 64-bit indices. Source: Davis 2004, UMFPACK; full partial pivoting
-/// instead of its threshold.
+/// instead of its threshold where the pattern is unsymmetric; nested dissection of the nodes by
+/// METIS with pivots on the diagonal, and full pivoting when that leaves more than round-off.
 SolverEntry solver_umfpack() {
-  return {{"umfpack", "UMFPACK's multifrontal LU with 64-bit indices", {}},
+  return {{"umfpack",
+           "UMFPACK's multifrontal LU with 64-bit indices",
+           {{"ordering", "auto",
+             "usual: UMFPACK's; metis: nested dissection of the nodes; auto: metis in 3D from 5000 "
+             "unknowns and in 2D elasticity from 100000"}}},
           Shape::square,
           Approach::direct,
-          [](const Options&) -> Solver { return solve_umfpack; }};
+          [](const Options& options) -> Solver {
+            const auto choice = options.choice<Choice>(
+                "ordering",
+                {{"auto", Choice::choose}, {"usual", Choice::usual}, {"metis", Choice::metis}});
+            return [choice](const LinearSystem& system) { return solve_umfpack(system, choice); };
+          }};
 }
 
 }  // namespace strongpoint

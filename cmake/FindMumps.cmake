@@ -1,0 +1,10 @@
+# Sequential MUMPS in Debian 12 ships no CMake package; gives the target Mumps::Mumps.
+find_path(Mumps_INCLUDE_DIR dmumps_c.h)
+find_library(Mumps_LIBRARY dmumps_seq)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(Mumps REQUIRED_VARS Mumps_LIBRARY Mumps_INCLUDE_DIR)
+if(Mumps_FOUND AND NOT TARGET Mumps::Mumps)
+  add_library(Mumps::Mumps INTERFACE IMPORTED)
+  target_include_directories(Mumps::Mumps SYSTEM INTERFACE ${Mumps_INCLUDE_DIR})
+  target_link_libraries(Mumps::Mumps INTERFACE ${Mumps_LIBRARY})
+endif()
