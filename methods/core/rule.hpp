@@ -1,6 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "methods/core/method.hpp"
@@ -30,15 +33,30 @@ template <int Dim>
 Stencils select_stencils(const StencilRule<Dim>& rule, const Sites<Dim>& sites,
                          const Method<Dim>& method, const NeighbourSearch<Dim>& search) {
   const std::vector<int> anchors = sites.wanted_anchors();
-  const Stencils chosen = rule.select(sites, anchors, method, search);
+  Stencils chosen = rule.select(sites, anchors, method, search);
+  if (anchors.size() == sites.wanted.size()) return chosen;
+  // The nodes are in place: only the offsets of empty stencils are missing.
   Stencils all;
-  all.offsets.reserve(sites.anchor_count() + 1);
-  all.nodes.reserve(chosen.nodes.size());
+  all.offsets.resize(static_cast<std::size_t>(sites.anchor_count()) + 1);
   int next = 0;
   for (int a = 0; a < sites.anchor_count(); ++a) {
-    all.push_back(sites.wanted[a] != 0 ? chosen[next++] : std::span<const int>{});
+    if (sites.wanted[a] != 0) ++next;
+    all.offsets[a + 1] = chosen.offsets[next];
   }
+  all.nodes = std::move(chosen.nodes);
   return all;
+}
+
+/// The k nearest nodes of the anchors listed; positions are copied only when these are not all.
+template <int Dim>
+Stencils nearest_to_anchors(const Sites<Dim>& sites, std::span<const int> anchors, int k, Ties ties,
+                            const NeighbourSearch<Dim>& search) {
+  bool are_all = static_cast<int>(anchors.size()) == sites.anchor_count();
+  for (std::size_t i = 0; are_all && i < anchors.size(); ++i) {
+    are_all = anchors[i] == static_cast<int>(i);
+  }
+  if (are_all) return search.nearest(sites.anchors, k, ties);
+  return search.nearest(columns_of<Dim>(sites.anchors, anchors), k, ties);
 }
 
 /// Squared distance of a node from an anchor, by the same sum as the neighbour search.

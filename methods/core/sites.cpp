@@ -7,6 +7,7 @@ namespace strongpoint {
 template <int Dim>
 std::vector<int> Sites<Dim>::wanted_anchors() const {
   std::vector<int> ids;
+  ids.reserve(wanted.size());
   for (int a = 0; a < anchor_count(); ++a) {
     if (wanted[a] != 0) ids.push_back(a);
   }

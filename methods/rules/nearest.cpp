@@ -11,7 +11,7 @@ class Nearest final : public StencilRule<Dim> {
   Stencils select(const Sites<Dim>& sites, std::span<const int> anchors, const Method<Dim>& method,
                   const NeighbourSearch<Dim>& search) const override {
     const int k = k_ > 0 ? k_ : method.stencil_size();
-    return search.nearest(columns_of<Dim>(sites.anchors, anchors), k, ties_);
+    return nearest_to_anchors(sites, anchors, k, ties_, search);
   }
 
  private:
