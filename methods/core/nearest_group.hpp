@@ -31,7 +31,8 @@ struct GroupRoom {
   int retries;  ///< queries with less than k nodes within the limit
 };
 
-/// The k nodes nearest to each of some queries that lie together. Everything within `reach` of the
+/// The k nodes nearest to each of some queries (or, where bounds are given, candidates for the
+/// nodes within them, all ambiguous) that lie together. Everything within `reach` of the
 /// box around them is listed once, in single precision about the middle of the box, and each query
 /// sorts what lies within a limit
 /// that follows the number of nodes which the last query found there. The order is certified: where
@@ -53,6 +54,7 @@ struct NearestGroup {
   float limit;               ///< squared distance over reach^2 to begin with, at most 1
   float target;              ///< nodes that should lie within the limit
   float gain;                ///< how fast the limit follows
+  const double* bounds;      ///< (query_count) squared radii; null: the k nearest are wanted
   float* list[3];            ///< room for all nodes of the ranges and 16 more, each
   int* list_ids;             ///< likewise
   GroupRoom* room;
@@ -68,7 +70,8 @@ struct ExactOrder {
   const double* nodes;       ///< (Dim, N) coordinates, node after node
   const double* queries[3];  ///< (query_count) coordinates
   int query_count;
-  double tie_factor;  ///< bound of ties over the k-th squared distance; 1: ties are cut
+  const double* bounds;  ///< (query_count) squared distances up to which nodes are kept; null: k
+  double tie_factor;     ///< bound of ties over the k-th squared distance; 1: ties are cut
   GroupRoom* room;
 };
 

@@ -12,6 +12,7 @@
 #include "methods/core/neighbours_brute.hpp"
 #include "methods/core/neighbours_bucket.hpp"
 #include "methods/core/neighbours_grid.hpp"
+#include "methods/core/neighbours_group_search.hpp"
 #include "methods/core/neighbours_line.hpp"
 #include "methods/core/neighbours_nanoflann.hpp"
 #include "methods/core/parallel_errors.hpp"
@@ -120,6 +121,9 @@ class BatchSearch final : public NeighbourSearch<Dim> {
                                   format_point(queries.col(static_cast<Eigen::Index>(i)))));
     }
     if (count_ == 0) return all_empty(queries);
+    if constexpr (GroupEngine<Engine, Dim>) {
+      return within_in_groups<Dim>(engine_, nodes_, queries, radii);
+    }
     return search_all<Dim>(engine_, queries, RadiusCollector(),
                            [radii](RadiusCollector& c, int i) { c.clear(radii[i]); });
   }

@@ -33,8 +33,8 @@ class Star final : public StencilRule<Dim> {
                   const NeighbourSearch<Dim>& search) const override {
     constexpr int candidates_per_sector = 4;  // enough unless spacing is very uneven
     const int total = per_sector_ * (1 << Dim);
-    const Stencils near = nearest_to_anchors(sites, anchors, candidates_per_sector * total + 1,
-                                              Ties::keep, search);
+    const Stencils near =
+        nearest_to_anchors(sites, anchors, candidates_per_sector * total + 1, Ties::keep, search);
     Stencils result;
     for (std::size_t i = 0; i < anchors.size(); ++i) {
       const std::span<const int> nodes = near[static_cast<int>(i)];

@@ -85,9 +85,13 @@ void order(const ExactOrder& task, int query, Ordered& ordered) {
     ids[place] = ordered.ids[i];
     squares[place] = ordered.squares[i];
   }
-  const double bound = squares[task.k - 1] * task.tie_factor;
   int size = task.k;
-  while (task.tie_factor > 1 && size < count && squares[size] <= bound) ++size;
+  if (task.bounds != nullptr) {
+    while (size < count && squares[size] <= task.bounds[query]) ++size;
+  } else if (task.tie_factor > 1) {
+    const double bound = squares[task.k - 1] * task.tie_factor;
+    while (size < count && squares[size] <= bound) ++size;
+  }
   room.candidates[query] = size;
 }
 

@@ -167,6 +167,22 @@ void gather_all(const NearestGroup& task, int count, float* limits) {
   room.limit = limit;
 }
 
+/// Gathers what may lie within each query's bound.
+template <int Dim>
+void gather_bounded(const NearestGroup& task, int count) {
+  GroupRoom& room = *task.room;
+  const double error = rounding_error<Dim>(task, 1);
+  for (int q = 0; q < task.query_count; ++q) {
+    const double square = task.bounds[q] / task.reach / task.reach;
+    gather_survivors<Dim>(task, count, q, static_cast<float>(square + 2 * error));
+    const int found = room.found[q];
+    room.outcome[q] = found > GroupRoom::survivors ? GroupOutcome::many : GroupOutcome::ambiguous;
+    if (found > GroupRoom::survivors) continue;
+    room.candidates[q] = found;
+    for (int i = 0; i < found; ++i) room.sorted[q][i] = room.ids[q][i];
+  }
+}
+
 template <int Dim>
 void search(const NearestGroup& task) {
   GroupRoom& room = *task.room;
@@ -174,6 +190,7 @@ void search(const NearestGroup& task) {
   for (int c = 0; c < Dim; ++c) {
     for (int i = 0; i < narrow_lanes; ++i) task.list[c][count + i] = 1e30F;
   }
+  if (task.bounds != nullptr) return gather_bounded<Dim>(task, count);
   float limits[group_size];
   gather_all<Dim>(task, count, limits);
   const double tolerance = 2 * rounding_error<Dim>(task, 1);
