@@ -164,7 +164,7 @@ void write_map(const RunOptions& options, const CaseKey& key, const Discretisati
   arrays.push_back(zone_array(scene.sites.anchor_zone));
   VtkOutput output = *options.vtk;
   if (scaling_of(extra) == Scaling::row) output.study += "_row";  // beside the map of `both`
-  write_vtu<Dim>(output, key, scene.cloud.nodes, arrays);
+  write_vtu<Dim>(output, key, scene.cloud, arrays);
 }
 
 template <int Dim>

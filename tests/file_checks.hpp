@@ -37,10 +37,13 @@ class FileTest : public testing::Test {
   std::filesystem::path directory_;
 };
 
-/// The cloud of a file.
+/// The cloud of a file, nodes as they are numbered there.
 template <int Dim>
 PointCloud<Dim> load(const Domain<Dim>& domain, const std::string& file) {
-  return make_cloud<Dim>(domain, "file[path=" + file + "]", {5, 1});
+  const PointCloud<Dim> cloud = make_cloud<Dim>(domain, "file[path=" + file + "]", {5, 1});
+  std::vector<int> order(cloud.size());
+  for (int i = 0; i < cloud.size(); ++i) order[cloud.number_of(i)] = i;
+  return reordered(cloud, order);
 }
 
 /// Loads a file that must be refused; gives the message after the path it must begin with.

@@ -112,10 +112,11 @@ void throw_first_failure(const Sites<Dim>& sites, const Stencils& stencils,
   if (bad == outcomes.end()) return;
   const int anchor = anchors[bad - outcomes.begin()];
   const int node = sites.anchor_node[anchor];
-  throw CaseError(fmt::format("{}: the stencil of {} at {} {}", kernel,
-                              node < 0 ? "the point" : fmt::format("node {}", node),
-                              format_point(sites.anchors.col(anchor)),
-                              explain(*bad, static_cast<int>(stencils[anchor].size()), needed)));
+  throw CaseError(
+      fmt::format("{}: the stencil of {} at {} {}", kernel,
+                  node < 0 ? "the point" : fmt::format("node {}", sites.number_of(node)),
+                  format_point(sites.anchors.col(anchor)),
+                  explain(*bad, static_cast<int>(stencils[anchor].size()), needed)));
 }
 
 template struct LocalStencil<1>;

@@ -61,12 +61,17 @@ struct Sites {
   Eigen::VectorXd spacing;           ///< (A) local node spacing, empty unless needed
   std::optional<IndexBlock<Dim>> block;  ///< structured clouds only
   Sight<Dim> sees;                       ///< empty unless needed
+  std::vector<int> node_numbers;         ///< what messages call the first nodes; empty: their ids
   std::vector<int> node_part;            ///< (N) part of each node, empty when there is one: no
                                          ///< stencil leaves the part of its anchor
   std::vector<int> anchor_part;          ///< (A) the same of each anchor
   std::vector<std::optional<IndexBlock<Dim>>> part_blocks;  ///< (parts) as `block`, ids within the
                                                             ///< part
 
+  /// What messages call a node.
+  int number_of(int node) const {
+    return node < static_cast<int>(node_numbers.size()) ? node_numbers[node] : node;
+  }
   int node_count() const { return static_cast<int>(nodes.cols()); }
   int anchor_count() const { return static_cast<int>(anchors.cols()); }
   int point_count() const { return static_cast<int>(points.cols()); }

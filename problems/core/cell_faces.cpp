@@ -69,7 +69,7 @@ void check_cells(const PointCloud<Dim>& cloud, const Domain<Dim>& domain,
     throw CaseError(
         fmt::format("the faces of the Voronoi cell of node {} at {} enclose {:g}: move the node "
                     "into the domain, or remove the nodes that coincide with it",
-                    i, format_point(centre), measure));
+                    cloud.number_of(i), format_point(centre), measure));
   }
   const double whole = domain.measure();
   if (std::abs(sum - whole) > measure_tolerance<Dim> * whole) {

@@ -73,7 +73,7 @@ void FaceMaker<2>::check(int node) const {
   throw CaseError(fmt::format(
       "the boundary inside the Voronoi cell of node {} at {} could not be followed: put "
       "more nodes on the boundary there, or refine the cloud",
-      node, format_point(cloud_.nodes.col(node))));
+      cloud_.number_of(node), format_point(cloud_.nodes.col(node))));
 }
 
 double FaceMaker<3>::add(int node, std::span<const int> neighbours, double half,

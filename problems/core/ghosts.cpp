@@ -105,7 +105,7 @@ void place_ghosts(const FluxProblem<Dim>& problem, const PointCloud<Dim>& cloud,
       throw CaseError(fmt::format(
           "the ghost of node {} at {} falls onto another node at {}: use another form (flux, "
           "collocation[boundary=combined]) or finer nodes there",
-          ghosts.owners[g], format_point(cloud.nodes.col(ghosts.owners[g])),
+          cloud.number_of(ghosts.owners[g]), format_point(cloud.nodes.col(ghosts.owners[g])),
           format_point(places[g])));
     }
   }

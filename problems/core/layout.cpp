@@ -23,11 +23,21 @@ std::string canonical_cloud(std::string_view spec) {
 namespace {
 
 template <int Dim>
-PointCloud<Dim> make_one(const LayoutEntry& entry, const Domain<Dim>& domain,
-                         const Options& options, const LayoutRequest& request) {
+PointCloud<Dim> place_nodes(const LayoutEntry& entry, const Domain<Dim>& domain,
+                            const Options& options, const LayoutRequest& request) {
   if constexpr (Dim == 1) return entry.make_1d(domain, options, request);
   if constexpr (Dim == 2) return entry.make_2d(domain, options, request);
   if constexpr (Dim == 3) return entry.make_3d(domain, options, request);
+}
+
+/// The cloud of a layout, along a curve unless it has a structure. Nodes have numbers of their own
+/// when somebody else numbered them.
+template <int Dim>
+PointCloud<Dim> make_one(const LayoutEntry& entry, const Domain<Dim>& domain,
+                         const Options& options, const LayoutRequest& request) {
+  PointCloud<Dim> cloud = along_curve(place_nodes(entry, domain, options, request));
+  if (entry.sizing != Sizing::by_file) cloud.numbers.clear();
+  return cloud;
 }
 
 /// One cloud a patch, side by side.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "methods/core/error.hpp"
+#include "methods/core/hilbert.hpp"
 #include "methods/core/neighbours.hpp"
 
 namespace strongpoint {
@@ -85,6 +86,7 @@ template <int Dim>
 Sites<Dim> sites_of_cloud(const PointCloud<Dim>& cloud) {
   Sites<Dim> sites = sites_at_nodes<Dim>(cloud.nodes);
   sites.block = cloud.block;
+  sites.node_numbers = cloud.numbers;
   for (int i = 0; i < cloud.size(); ++i) {
     if (cloud.is_boundary(i)) sites.anchor_zone[i] = Zone::boundary;
   }
@@ -110,6 +112,36 @@ PointCloud<Dim> cloud_of_part(const PointCloud<Dim>& cloud, int part) {
   }
   result.block = from.block;
   result.measure = cloud.measure;
+  return result;
+}
+
+template <int Dim>
+PointCloud<Dim> reordered(const PointCloud<Dim>& cloud, const std::vector<int>& order) {
+  PointCloud<Dim> result;
+  result.measure = cloud.measure;
+  result.nodes = columns_of<Dim>(cloud.nodes, order);
+  for (int node : order) {
+    const auto marks = cloud.all_marks_of(node);
+    result.marks.insert(result.marks.end(), marks.begin(), marks.end());
+    result.mark_offsets.push_back(static_cast<int>(result.marks.size()));
+    result.numbers.push_back(cloud.number_of(node));
+  }
+  return result;
+}
+
+template <int Dim>
+PointCloud<Dim> along_curve(const PointCloud<Dim>& cloud) {
+  if (cloud.block || !cloud.parts.empty()) return cloud;
+  return reordered(cloud, hilbert_order<Dim>(cloud.nodes));
+}
+
+template <int Dim>
+Eigen::MatrixXd in_given_order(const PointCloud<Dim>& cloud, const Eigen::MatrixXd& values) {
+  if (cloud.numbers.empty() || values.cols() != cloud.size()) return values;
+  Eigen::MatrixXd result(values.rows(), values.cols());
+  for (int node = 0; node < cloud.size(); ++node) {
+    result.col(cloud.numbers[node]) = values.col(node);
+  }
   return result;
 }
 
@@ -178,6 +210,15 @@ template Sites<2> sites_of_cloud(const PointCloud<2>&);
 template Sites<3> sites_of_cloud(const PointCloud<3>&);
 template void check_interfaces(const PointCloud<1>&);
 template PointCloud<1> cloud_of_part(const PointCloud<1>&, int);
+template PointCloud<1> reordered(const PointCloud<1>&, const std::vector<int>&);
+template PointCloud<1> along_curve(const PointCloud<1>&);
+template Eigen::MatrixXd in_given_order(const PointCloud<1>&, const Eigen::MatrixXd&);
+template PointCloud<2> reordered(const PointCloud<2>&, const std::vector<int>&);
+template PointCloud<2> along_curve(const PointCloud<2>&);
+template Eigen::MatrixXd in_given_order(const PointCloud<2>&, const Eigen::MatrixXd&);
+template PointCloud<3> reordered(const PointCloud<3>&, const std::vector<int>&);
+template PointCloud<3> along_curve(const PointCloud<3>&);
+template Eigen::MatrixXd in_given_order(const PointCloud<3>&, const Eigen::MatrixXd&);
 template void check_interfaces(const PointCloud<2>&);
 template PointCloud<2> cloud_of_part(const PointCloud<2>&, int);
 template void check_interfaces(const PointCloud<3>&);

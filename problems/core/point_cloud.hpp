@@ -39,10 +39,14 @@ struct PointCloud {
   std::optional<IndexBlock<Dim>> block;  ///< structured clouds of one part only
   double measure = 0;                    ///< length, area or volume of the domain
   std::vector<Part<Dim>> parts;          ///< ascending by node; empty: one part, patch 0
+  std::vector<int> numbers;              ///< (N) what the user calls each node, from 0 on; empty:
+                                         ///< its id
   Stencils twins;                        ///< (N) nodes of other parts at the place of a node with
                                          ///< interface marks, ascending; no rows with one part
 
   int size() const { return static_cast<int>(nodes.cols()); }
+  /// What messages and results call a node: its number in the file it was read from.
+  int number_of(int node) const { return numbers.empty() ? node : numbers[node]; }
   /// All marks of a node, those on interfaces first.
   std::span<const BoundaryMark<Dim>> all_marks_of(int node) const {
     return {marks.data() + mark_offsets[node], marks.data() + mark_offsets[node + 1]};
@@ -86,6 +90,21 @@ Sites<Dim> sites_of_cloud(const PointCloud<Dim>& cloud);
 /// the whole.
 template <int Dim>
 PointCloud<Dim> cloud_of_part(const PointCloud<Dim>& cloud, int part);
+
+/// The cloud of one part without index structure whose node i is node order[i] of another one;
+/// `numbers` keep what the nodes were called.
+template <int Dim>
+PointCloud<Dim> reordered(const PointCloud<Dim>& cloud, const std::vector<int>& order);
+
+/// The cloud with its nodes along a Hilbert curve, so that what is near in space is near in memory;
+/// `numbers` keep what the nodes were called. Clouds with index structure, and those of several
+/// parts, stay as they are.
+template <int Dim>
+PointCloud<Dim> along_curve(const PointCloud<Dim>& cloud);
+
+/// Values at the nodes, one column a node, in the order of the nodes' numbers; others as they are.
+template <int Dim>
+Eigen::MatrixXd in_given_order(const PointCloud<Dim>& cloud, const Eigen::MatrixXd& values);
 
 /// Throws CaseError, naming the lowest, when a node on an interface meets no node of another part.
 template <int Dim>

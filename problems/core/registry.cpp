@@ -31,7 +31,8 @@ Eigen::VectorXd Solution<Dim>::derivative(int field, const MultiIndex<Dim>& alph
     const std::span<const int> nodes = weights.nodes(p);
     if (nodes.empty()) {
       throw CaseError(fmt::format("{} at node {} {} is asked for, but the node has no stencil",
-                                  name_of<Dim>(alpha), p, format_point(cloud.nodes.col(p))));
+                                  name_of<Dim>(alpha), cloud.number_of(p),
+                                  format_point(cloud.nodes.col(p))));
     }
     const Eigen::Map<const Eigen::MatrixXd> row = weights.row(p);
     double sum = 0;

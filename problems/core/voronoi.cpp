@@ -133,7 +133,7 @@ Eigen::VectorXd voronoi_volumes(const PointCloud<Dim>& cloud, const Domain<Dim>&
         fmt::format("the Voronoi cell of node {} at {} has measure {:g}: move the node into the "
                     "domain, or remove "
                     "the nodes that coincide with it",
-                    i, format_point(cloud.nodes.col(i)), volumes[i]));
+                    cloud.number_of(i), format_point(cloud.nodes.col(i)), volumes[i]));
   }
   return volumes;
 }

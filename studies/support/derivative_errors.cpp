@@ -68,7 +68,7 @@ void write_errors(const RunOptions& options, const CaseKey& key, const Discretis
     arrays.push_back({name_of<Dim>(scene.derivatives[d]) + "_error", errors.row(d).cwiseAbs()});
   }
   arrays.push_back(zone_array(scene.sites.anchor_zone));
-  write_vtu<Dim>(*options.vtk, key, scene.cloud.nodes, arrays);
+  write_vtu<Dim>(*options.vtk, key, scene.cloud, arrays);
 }
 
 }  // namespace

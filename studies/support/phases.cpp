@@ -115,10 +115,10 @@ class Phases {
   /// Takes at least `wanted` candidates, with the ties of the last.
   void take(int node, Centre<Dim>& centre, std::size_t wanted) {
     if (wanted > centre.near.size()) {
-      throw CaseError(
-          fmt::format("the stencil of node {} at {} stays ill-conditioned with {} nodes; use more "
-                      "or other nodes",
-                      node, format_point(sites_.nodes.col(node)), centre.near.size()));
+      throw CaseError(fmt::format(
+          "the stencil of node {} at {} stays ill-conditioned with {} nodes; use more "
+          "or other nodes",
+          sites_.number_of(node), format_point(sites_.nodes.col(node)), centre.near.size()));
     }
     const double bound =
         squared_distance(sites_, node, centre.near[wanted - 1]) * (1 + 2 * tie_tolerance);
@@ -140,7 +140,8 @@ class Phases {
     const auto n = static_cast<Eigen::Index>(centre.nodes.size());
     LocalStencil<Dim> stencil;
     if (stencil.gather(sites_, centre.nodes, node) != LocalOutcome::ok) {
-      throw CaseError(fmt::format("the stencil of node {} holds coincident nodes", node));
+      throw CaseError(
+          fmt::format("the stencil of node {} holds coincident nodes", sites_.number_of(node)));
     }
     std::vector<double> squared;
     fit_.evaluate_weights(stencil, squared);

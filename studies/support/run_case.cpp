@@ -193,6 +193,7 @@ std::unique_ptr<Discretisation<Dim>> discretise(const SteadyProblem<Dim>& proble
     scene.sites = std::move(plan.sites);
     scene.unknowns = std::move(plan.unknowns);
     scene.unknowns.field_axis = field_axes(problem);
+    scene.unknowns.numbers = scene.cloud.numbers;
     scene.equations = std::move(plan.equations);
   });
   const auto& advance = upto == Upto::weights ? compute_weights<Dim> : choose_stencils<Dim>;
@@ -233,7 +234,7 @@ CaseResult solve_steady(const SteadyProblem<Dim>& problem, const CaseKey& key,
   const Solution<Dim> solution = solution_of<Dim>(scene, linear.x);
   if (options.vtk) {
     const Choices<Dim> choices(key);
-    write_vtu<Dim>(*options.vtk, key, scene.cloud.nodes,
+    write_vtu<Dim>(*options.vtk, key, scene.cloud,
                    case_arrays<Dim>(problem, solution, scene, *choices.method));
   }
   const std::vector<std::string> names = problem.quantities();

@@ -215,7 +215,7 @@ CaseResult run_case(const TransientProblem<Dim>& problem, const CaseKey& key,
   result.times.peak_mb = peak_memory_mb();
   if (options.vtk) {
     if (run.arrays.empty()) add_shapes<Dim>(run);
-    write_vtu<Dim>(*options.vtk, key, run.waves.scene->cloud.nodes, run.arrays);
+    write_vtu<Dim>(*options.vtk, key, run.waves.scene->cloud, run.arrays);
   }
   result.quantities = std::move(run.quantities);
   result.nodes = run.waves.scene->cloud.size();

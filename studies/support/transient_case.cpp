@@ -191,7 +191,7 @@ void TransientRun<Dim>::write_frame(const Frames& frames, const MotionState& sta
   }
   arrays.insert(arrays.end(), stencils_.begin(), stencils_.end());
   const std::string title = fmt::format("{}; {}; t = {:.6g}", title_of(key_), words(), time);
-  frames.write(frame, vtu_text<Dim>(waves_.scene->cloud.nodes, arrays, title, time));
+  frames.write(frame, cloud_text<Dim>(waves_.scene->cloud, arrays, title, time));
 }
 
 template <int Dim>

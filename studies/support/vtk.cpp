@@ -120,6 +120,13 @@ std::string vtu_text(const Points<Dim>& nodes, const std::vector<NodeArray>& arr
   return text_of(*grid.Get());
 }
 
+template <int Dim>
+std::string cloud_text(const PointCloud<Dim>& cloud, std::vector<NodeArray> arrays,
+                       const std::string& title, std::optional<double> time) {
+  for (NodeArray& array : arrays) array.values = in_given_order(cloud, array.values);
+  return vtu_text<Dim>(in_given_order(cloud, Eigen::MatrixXd(cloud.nodes)), arrays, title, time);
+}
+
 std::string title_of(const CaseKey& key) {
   return fmt::format("{}, {}, stencil {}, cloud {}, level {}", key.problem, key.method, key.stencil,
                      key.cloud, key.level);
@@ -137,22 +144,28 @@ std::string vtu_path(const VtkOutput& output, const CaseKey& key, const std::str
 }
 
 template <int Dim>
-void write_vtu(const VtkOutput& output, const CaseKey& key, const Points<Dim>& nodes,
+void write_vtu(const VtkOutput& output, const CaseKey& key, const PointCloud<Dim>& cloud,
                const std::vector<NodeArray>& arrays) {
-  write_whole(vtu_path(output, key), vtu_text<Dim>(nodes, arrays, title_of(key)));
+  write_whole(vtu_path(output, key), cloud_text<Dim>(cloud, arrays, title_of(key)));
 }
 
+template std::string cloud_text<1>(const PointCloud<1>&, std::vector<NodeArray>, const std::string&,
+                                   std::optional<double>);
 template std::string vtu_text<1>(const Points<1>&, const std::vector<NodeArray>&,
                                  const std::string&, std::optional<double>);
+template std::string cloud_text<2>(const PointCloud<2>&, std::vector<NodeArray>, const std::string&,
+                                   std::optional<double>);
 template std::string vtu_text<2>(const Points<2>&, const std::vector<NodeArray>&,
                                  const std::string&, std::optional<double>);
+template std::string cloud_text<3>(const PointCloud<3>&, std::vector<NodeArray>, const std::string&,
+                                   std::optional<double>);
 template std::string vtu_text<3>(const Points<3>&, const std::vector<NodeArray>&,
                                  const std::string&, std::optional<double>);
-template void write_vtu<1>(const VtkOutput&, const CaseKey&, const Points<1>&,
+template void write_vtu<1>(const VtkOutput&, const CaseKey&, const PointCloud<1>&,
                            const std::vector<NodeArray>&);
-template void write_vtu<2>(const VtkOutput&, const CaseKey&, const Points<2>&,
+template void write_vtu<2>(const VtkOutput&, const CaseKey&, const PointCloud<2>&,
                            const std::vector<NodeArray>&);
-template void write_vtu<3>(const VtkOutput&, const CaseKey&, const Points<3>&,
+template void write_vtu<3>(const VtkOutput&, const CaseKey&, const PointCloud<3>&,
                            const std::vector<NodeArray>&);
 
 }  // namespace strongpoint

@@ -7,6 +7,7 @@
 
 #include "methods/core/sites.hpp"
 #include "problems/core/node_array.hpp"
+#include "problems/core/point_cloud.hpp"
 #include "studies/support/study.hpp"
 
 namespace strongpoint {
@@ -26,6 +27,11 @@ template <int Dim>
 std::string vtu_text(const Points<Dim>& nodes, const std::vector<NodeArray>& arrays,
                      const std::string& title, std::optional<double> time = {});
 
+/// The nodes of a cloud likewise, in the order of their numbers.
+template <int Dim>
+std::string cloud_text(const PointCloud<Dim>& cloud, std::vector<NodeArray> arrays,
+                       const std::string& title, std::optional<double> time = {});
+
 /// A case in words, for people.
 std::string title_of(const CaseKey& key);
 
@@ -37,9 +43,9 @@ std::string file_stem(const CaseKey& key, const std::string& rest = {});
 /// The file of a case in a directory: study and `file_stem`.
 std::string vtu_path(const VtkOutput& output, const CaseKey& key, const std::string& rest = {});
 
-/// Writes the file of a case. Throws WriteError.
+/// Writes the file of a case, nodes in the order of their numbers. Throws WriteError.
 template <int Dim>
-void write_vtu(const VtkOutput& output, const CaseKey& key, const Points<Dim>& nodes,
+void write_vtu(const VtkOutput& output, const CaseKey& key, const PointCloud<Dim>& cloud,
                const std::vector<NodeArray>& arrays);
 
 }  // namespace strongpoint

@@ -81,8 +81,8 @@ class Mlpg {
       } else {
         domain.test.radius = std::min(radius, -problem.domain().distance(x));
         if (!(domain.test.radius > 0)) {
-          throw CaseError(fmt::format("node {} at {} has no boundary mark but is not inside", i,
-                                      format_point(x)));
+          throw CaseError(fmt::format("node {} at {} has no boundary mark but is not inside",
+                                      cloud.number_of(i), format_point(x)));
         }
         domain.rule = quadrature.whole(x, domain.test.radius);
       }
