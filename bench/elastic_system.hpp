@@ -20,7 +20,7 @@ struct KnownSystem {
 };
 
 /// Which faces of the unit cube carry tractions; the others are fixed.
-enum class Loaded { none, upper_faces };
+enum class Loaded { none, first_upper_face, upper_faces };
 
 /// What an elastic system is made of.
 struct ElasticChoices {
@@ -58,6 +58,7 @@ class ElasticSystem {
     KnownSystem made{assemble(equations(derivatives), weights, {.count = nodes}, Dim),
                      smooth_field()};
     multiply(made.system, made.solution, made.system.right_hand_side);
+    made.system.dimension = Dim;
     made.system.order = order_along(nodes_.row(0).transpose());
     return made;
   }
@@ -73,7 +74,8 @@ class ElasticSystem {
   Point<Dim> load_normal(int node) const {
     Point<Dim> sum = Point<Dim>::Zero();
     for (const BoundaryMark<Dim>& mark : cloud_.marks_of(node)) {
-      const bool is_upper = mark.normal.sum() > 0;
+      const bool is_upper = choices_.loaded == Loaded::first_upper_face ? mark.normal[0] > 0.5
+                                                                        : mark.normal.sum() > 0;
       if (!is_upper || choices_.loaded == Loaded::none) return Point<Dim>::Zero();
       sum += mark.normal;
     }
