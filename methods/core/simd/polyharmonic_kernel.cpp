@@ -1,151 +1,13 @@
 #include "methods/core/simd/polyharmonic_kernel.hpp"
 
-#include "methods/core/simd/lane_algebra.hpp"
-#include "methods/core/simd/lane_gather.hpp"
+#include "methods/core/simd/polyharmonic_group.hpp"
 
 namespace strongpoint::STRONGPOINT_SIMD_PATH {
 namespace {
 
-/// Smallest pivot of the polynomials over the largest entry of its column, and smallest pivot of
-/// the projected matrix over its diagonal entry, that are served here: far from where the one by
-/// one path refuses (1e-11 and 1e-14).
-constexpr double polynomial_tolerance = 1e-8;
+/// Smallest pivot of the projected matrix over its diagonal entry that is served here: far from
+/// where the one by one path refuses (1e-14).
 constexpr double definite_tolerance = 1e-11;
-
-/// Buffers of a group of stencils. Nodes are in the order in which the polynomials choose them.
-struct Group {
-  LaneStencils stencils;
-  Pack* place;             ///< (n) where a node stands in its stencil
-  LaneMatrix polynomials;  ///< (n, m) L1 and U; below them first L2, then T
-  Pack* inverse;           ///< (m) of the diagonal of U
-  LaneMatrix chosen;       ///< (m, m) r^phs between the chosen nodes
-  LaneMatrix mixed;        ///< (n - m, m) between the others and the chosen ones
-  LaneMatrix coupling;     ///< (n - m, m) C = mixed - T chosen
-  LaneMatrix projected;    ///< (n - m, n - m) r^phs in the null space, then its factors
-  Pack* inverse_pivots;    ///< (n - m)
-  LaneMatrix radial;       ///< (n, columns) right-hand sides, then weights of the nodes m to n
-  LaneMatrix weights;      ///< (m, columns) right-hand sides, then weights of the nodes 0 to m
-};
-
-Group make_group(const PolyharmonicTask& task) {
-  const long n = task.table.size;
-  const long m = task.terms;
-  const long rest = n - m;
-  const long columns = polyharmonic_columns(task.derivatives);
-  Pack* next = reinterpret_cast<Pack*>(task.room);
-  const auto take = [&next](long count) {
-    Pack* const taken = next;
-    next += count;
-    return taken;
-  };
-  Group group;
-  group.stencils.z = take(n * task.dimension);
-  group.stencils.rho = take(n);
-  group.place = take(n);
-  group.polynomials = {take(n * m), m, 1};
-  group.inverse = take(m);
-  group.chosen = {take(m * m), m, 1};
-  group.mixed = {take(rest * m), m, 1};
-  group.coupling = {take(rest * m), m, 1};
-  group.projected = {take(rest * rest), rest, 1};
-  group.inverse_pivots = take(rest);
-  group.radial = {take(n * columns), 1, n};
-  group.weights = {take(m * columns), 1, m};
-  return group;
-}
-
-/// z^exponents.
-template <int Dim>
-Pack monomial(const Pack* z, const int* exponents) {
-  Pack value = all(1);
-  for (int c = 0; c < Dim; ++c) {
-    for (int k = 0; k < exponents[c]; ++k) value = value * z[c];
-  }
-  return value;
-}
-
-/// Exchanges `count` packs of two rows in some lanes.
-void exchange(unsigned bits, Pack* a, Pack* b, int count) {
-  for (int e = 0; e < count; ++e) {
-    const Pack before = a[e];
-    a[e] = choose(bits, b[e], before);
-    b[e] = choose(bits, before, b[e]);
-  }
-}
-
-/// Brings, in each lane, the node with the largest entry of column k to row k, where rows have
-/// `filled` entries. Gives that entry's size.
-template <int Dim>
-Pack exchange_nodes(const Group& group, int n, int k, int filled) {
-  Pack largest = all(0);
-  for (int i = k; i < n; ++i) largest = max(largest, abs(group.polynomials(i, k)));
-  Pack row = all(k);
-  Pack here = all(n);
-  for (int i = n - 1; i >= k; --i) {
-    here = here - all(1);
-    row = choose(less(abs(group.polynomials(i, k)), largest), row, here);
-  }
-  double rows[lanes];
-  store(rows, row);
-  unsigned left = less(all(k), row);
-  for (int lane = 0; lane < lanes; ++lane) {
-    if ((left >> lane & 1U) == 0) continue;
-    const int i = static_cast<int>(rows[lane]);
-    const unsigned bits = less(abs(row - all(i)), all(0.5));
-    left &= ~bits;
-    exchange(bits, group.stencils.z + k * Dim, group.stencils.z + i * Dim, Dim);
-    exchange(bits, group.place + k, group.place + i, 1);
-    exchange(bits, &group.polynomials(k, 0), &group.polynomials(i, 0), filled);
-  }
-  return largest;
-}
-
-/// Fills a column with a monomial at all nodes. Gives its largest entry's size.
-template <int Dim>
-Pack fill_monomial(const Group& group, int n, int k, const int* exponents) {
-  const LaneMatrix column = group.polynomials.block(0, k);
-  for (int i = 0; i < n; ++i) column(i, 0) = all(1);
-  for (int c = 0; c < Dim; ++c) {
-    for (int power = 0; power < exponents[c]; ++power) {
-      for (int i = 0; i < n; ++i) column(i, 0) = column(i, 0) * group.stencils.z[i * Dim + c];
-    }
-  }
-  Pack largest = all(0);
-  for (int i = 0; i < n; ++i) largest = max(largest, abs(column(i, 0)));
-  return largest;
-}
-
-/// LU of the polynomials, nodes being exchanged, a few columns at a time. Gives the bits of lanes
-/// where the columns are safely independent.
-template <int Dim>
-unsigned factorise_polynomials(const PolyharmonicTask& task, const Group& group) {
-  const int n = task.table.size;
-  const LaneMatrix& lu = group.polynomials;
-  unsigned good = every_lane;
-  for (int i = 0; i < n; ++i) group.place[i] = all(i);
-  for (int begin = 0; begin < task.terms; begin += panel) {
-    const int end = begin + panel < task.terms ? begin + panel : task.terms;
-    Pack column[panel];
-    for (int k = begin; k < end; ++k) {
-      column[k - begin] = fill_monomial<Dim>(group, n, k, task.exponents + k * Dim);
-    }
-    solve_lower(begin, lu, nullptr, end - begin, lu.block(0, begin));
-    subtract_product(n - begin, end - begin, lu.block(begin, begin), lu.block(begin, 0),
-                     lu.block(0, begin), begin);
-    for (int k = begin; k < end; ++k) {
-      const Pack pivot = exchange_nodes<Dim>(group, n, k, end);
-      good &= less(all(polynomial_tolerance) * column[k - begin], pivot);
-      const Pack inverse = all(1) / lu(k, k);
-      group.inverse[k] = inverse;
-      for (int i = k + 1; i < n; ++i) lu(i, k) = lu(i, k) * inverse;
-      for (int j = k + 1; j < end; ++j) {
-        const Pack factor = lu(k, j);
-        for (int i = k + 1; i < n; ++i) lu(i, j) = lu(i, j) - lu(i, k) * factor;
-      }
-    }
-  }
-  return good;
-}
 
 /// s^(1/2 + half).
 Pack odd_power(Pack s, int half) {
@@ -156,8 +18,8 @@ Pack odd_power(Pack s, int half) {
 
 /// r^phs between node i and the nodes `begin` to `end`.
 template <int Dim>
-void fill_distances(const PolyharmonicTask& task, const Group& group, int i, int begin, int end,
-                    Pack* values) {
+void fill_distances(const PolyharmonicTask& task, const PolyharmonicGroup& group, int i, int begin,
+                    int end, Pack* values) {
   const int half = task.phs / 2;
   const Pack* const z = group.stencils.z;
   for (int j = begin; j < end; ++j) {
@@ -174,7 +36,7 @@ void fill_distances(const PolyharmonicTask& task, const Group& group, int i, int
 /// the projection is others - T mixed^T - C T^T. Gives the bits of lanes where it is safely
 /// definite.
 template <int Dim>
-unsigned factorise_projected(const PolyharmonicTask& task, const Group& group) {
+unsigned factorise_projected(const PolyharmonicTask& task, const PolyharmonicGroup& group) {
   const int n = task.table.size;
   const int m = task.terms;
   const int rest = n - m;
@@ -199,8 +61,8 @@ unsigned factorise_projected(const PolyharmonicTask& task, const Group& group) {
 /// Right-hand sides of all derivatives at a point: of the polynomials, in columns `first` and
 /// following.
 template <int Dim>
-void fill_constraints(const PolyharmonicTask& task, const Group& group, const Pack* offset,
-                      int first) {
+void fill_constraints(const PolyharmonicTask& task, const PolyharmonicGroup& group,
+                      const Pack* offset, int first) {
   for (int d = 0; d < task.derivatives; ++d) {
     for (int a = 0; a < task.terms; ++a) {
       const double factor = task.factors[d * task.terms + a];
@@ -216,7 +78,8 @@ void fill_constraints(const PolyharmonicTask& task, const Group& group, const Pa
 
 /// The same of r^phs, whose derivatives are taken as zero at r = 0.
 template <int Dim>
-void fill_radial(const PolyharmonicTask& task, const Group& group, const Pack* offset, int first) {
+void fill_radial(const PolyharmonicTask& task, const PolyharmonicGroup& group, const Pack* offset,
+                 int first) {
   constexpr int highest = 12;  // above phs, and derivatives are of lower orders
   int order = 0;
   for (int t = 0; t < task.radial_offsets[task.derivatives]; ++t) {
@@ -247,7 +110,7 @@ void fill_radial(const PolyharmonicTask& task, const Group& group, const Pack* o
 
 /// Weights of all right-hand sides, w = [w1 - T^T w2; w2] with P1^T w1 = constraints and
 /// projected w2 = radial2 - T radial1 - C w1.
-void solve(const PolyharmonicTask& task, const Group& group, int columns) {
+void solve(const PolyharmonicTask& task, const PolyharmonicGroup& group, int columns) {
   const int m = task.terms;
   const int rest = task.table.size - m;
   const LaneMatrix transposed = group.polynomials.transposed();
@@ -265,7 +128,7 @@ void solve(const PolyharmonicTask& task, const Group& group, int columns) {
 /// Multiplies the weights by R^-order and puts them all into `radial`. Gives the bits of lanes
 /// where they are finite.
 template <int Dim>
-unsigned scale(const PolyharmonicTask& task, const Group& group, int columns) {
+unsigned scale(const PolyharmonicTask& task, const PolyharmonicGroup& group, int columns) {
   const Pack infinite = all(__builtin_inf());
   const Pack inverse = all(1) / group.stencils.radius;
   unsigned finite = every_lane;
@@ -285,7 +148,8 @@ unsigned scale(const PolyharmonicTask& task, const Group& group, int columns) {
 }
 
 /// Writes the weights of one lane at one of its points.
-void write(const PolyharmonicTask& task, const Group& group, int lane, int point, int first) {
+void write(const PolyharmonicTask& task, const PolyharmonicGroup& group, int lane, int point,
+           int first) {
   const long step = group.radial.column * lanes;
   const double* const places = reinterpret_cast<const double*>(group.place) + lane;
   const double* from = reinterpret_cast<const double*>(&group.radial(0, first)) + lane;
@@ -296,10 +160,19 @@ void write(const PolyharmonicTask& task, const Group& group, int lane, int point
   }
 }
 
+/// Asks for the memory that the weights of a point will be written to.
+void fetch_row(const PolyharmonicTask& task, int point) {
+  constexpr long line = 8;  // numbers in a cache line
+  const long count = static_cast<long>(task.table.size) * task.derivatives;
+  const double* const row = task.values + task.value_offsets[point] * task.derivatives;
+  for (long i = 0; i < count; i += line) __builtin_prefetch(row + i, 1);
+  __builtin_prefetch(row + count - 1, 1);
+}
+
 /// Evaluates all points of a group's anchors, some at a time; lanes with fewer points repeat their
 /// last one. Gives the bits of lanes where all is finite, of those in `good`, which are written.
 template <int Dim>
-unsigned evaluate(const PolyharmonicTask& task, const Group& group, unsigned good) {
+unsigned evaluate(const PolyharmonicTask& task, const PolyharmonicGroup& group, unsigned good) {
   const int at_a_time = polyharmonic_columns(task.derivatives) / task.derivatives;
   const int* ids[lanes];
   int counts[lanes];
@@ -313,6 +186,10 @@ unsigned evaluate(const PolyharmonicTask& task, const Group& group, unsigned goo
   const Pack inverse = all(1) / group.stencils.radius;
   for (int begin = 0; begin < most; begin += at_a_time) {
     const int points = most - begin < at_a_time ? most - begin : at_a_time;
+    for (int lane = 0; lane < lanes; ++lane) {
+      for (int q = begin; q < begin + points && q < counts[lane]; ++q)
+        fetch_row(task, ids[lane][q]);
+    }
     for (int q = 0; q < points; ++q) {
       Pack offset[Dim];
       for (int c = 0; c < Dim; ++c) {
@@ -343,7 +220,7 @@ unsigned evaluate(const PolyharmonicTask& task, const Group& group, unsigned goo
 
 template <int Dim>
 void weigh(const PolyharmonicTask& task) {
-  Group group = make_group(task);
+  PolyharmonicGroup group = make_group(task);
   for (int first = 0; first < task.table.count; first += lanes) {
     const int left = task.table.count - first;
     gather_squares<Dim>(task.table, first, group.stencils);
