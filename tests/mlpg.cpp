@@ -125,7 +125,7 @@ TEST(Mlpg, WritesTheSameSystemOnOneAndFourThreads) {
   RunOptions options;
   const CaseKey key{"", "mls", "radius[factor=3.2]", "perturbed", "mlpg", "umfpack", 12};
   StageTimes times;
-  std::vector<double> values[2];
+  LargeArray<double> values[2];
   for (int i = 0; i < 2; ++i) {
     options.threads = i == 0 ? 1 : 4;
     const auto made = discretise<2>(problem, key, options, times);
