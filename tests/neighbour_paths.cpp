@@ -93,6 +93,7 @@ std::vector<std::pair<std::string, Points<Dim>>> clouds() {
 template <int Dim>
 std::vector<std::pair<std::string, Points<Dim>>> queries_for(const Points<Dim>& nodes) {
   std::vector<int> third;
+  third.reserve(static_cast<std::size_t>(nodes.cols()));
   for (int i = 1; i < nodes.cols(); i += 3) third.push_back(i);
   const Point<Dim> low = nodes.rowwise().minCoeff();
   const Point<Dim> extent = nodes.rowwise().maxCoeff() - low;
@@ -150,6 +151,7 @@ TEST_F(EveryPath, FindsWhatBruteForceFindsWithinARadius) {
     for (const auto& [which, queries] : queries_for<2>(nodes)) {
       const Stencils near = make_search<2>("brute", nodes)->nearest(queries, 12, Ties::cut);
       std::vector<double> radii;
+      radii.reserve(static_cast<std::size_t>(queries.cols()));
       for (int q = 0; q < queries.cols(); ++q) {
         radii.push_back((queries.col(q) - nodes.col(near[q].back())).norm());
       }
