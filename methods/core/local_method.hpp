@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <concepts>
 #include <stdexcept>
@@ -44,6 +45,17 @@ concept BatchKernel = LocalKernel<Kernel, Dim> &&
   {kernel.fill_batch(batch, work, weights, outcomes)};
 };
 
+/// A kernel that bounds the conditions of many local matrices faster than it finds one of them.
+/// `bound_conditions` fills, for stencil i of anchors[i], bounds that hold to 1e-6 or better, 0 and
+/// infinity where it cannot tell; `first` is the stencil of the first anchor.
+template <class Kernel, int Dim>
+concept ConditionBoundsKernel = LocalKernel<Kernel, Dim> &&
+    requires(const Kernel kernel, const Sites<Dim>& sites, std::span<const int> anchors,
+             const Stencils& stencils, int first, Scaling scaling, ConditionNorm norm,
+             typename Kernel::Workspace& work, std::span<ConditionBounds> bounds) {
+  {kernel.bound_conditions(sites, anchors, stencils, first, scaling, norm, work, bounds)};
+};
+
 /// A method whose weights come from a kernel, stencil by stencil: a static loop over the anchors,
 /// parallel, with one workspace a thread and no allocation once the workspaces have grown.
 template <int Dim, class Kernel>
@@ -75,6 +87,9 @@ class LocalMethod : public Method<Dim> {
   std::vector<double> condition(const Sites<Dim>& sites, std::span<const int> anchors,
                                 const Stencils& stencils, Scaling scaling,
                                 ConditionNorm norm) const override;
+  std::vector<std::uint8_t> exceeds_condition(const Sites<Dim>& sites, std::span<const int> anchors,
+                                              const Stencils& stencils, Scaling scaling,
+                                              ConditionNorm norm, double limit) const override;
 
  private:
   Kernel kernel_;
@@ -107,15 +122,17 @@ template <int Dim>
 Weights weights_on_stencils(const Sites<Dim>& sites, const Stencils& stencils, int per_entry) {
   Weights weights;
   weights.per_entry = per_entry;
-  weights.offsets.reserve(sites.point_anchor.size() + 1);
-  for (int anchor : sites.point_anchor) {
-    weights.offsets.push_back(weights.offsets.back() +
-                              static_cast<std::int64_t>(stencils[anchor].size()));
+  const int count = sites.point_count();
+  weights.offsets.assign(sites.point_anchor.size() + 1, 0);
+  for (int p = 0; p < count; ++p) {
+    const std::int64_t* const list = stencils.offsets.data() + sites.point_anchor[p];
+    weights.offsets[p + 1] = weights.offsets[p] + list[1] - list[0];
   }
-  weights.columns.reserve(weights.offsets.back());
-  for (int anchor : sites.point_anchor) {
-    const std::span<const int> nodes = stencils[anchor];
-    weights.columns.insert(weights.columns.end(), nodes.begin(), nodes.end());
+  weights.columns.resize(weights.offsets.back());
+#pragma omp parallel for schedule(static)
+  for (int p = 0; p < count; ++p) {
+    const std::span<const int> nodes = stencils[sites.point_anchor[p]];
+    std::copy(nodes.begin(), nodes.end(), weights.columns.begin() + weights.offsets[p]);
   }
   weights.values.resize(weights.offsets.back() * per_entry);
   return weights;
@@ -208,6 +225,53 @@ const {
   }
   errors.rethrow();
   return result;
+}
+
+template <int Dim, class Kernel>
+requires LocalKernel<Kernel, Dim> std::vector<std::uint8_t>
+LocalMethod<Dim, Kernel>::exceeds_condition(const Sites<Dim>& sites, std::span<const int> anchors,
+                                            const Stencils& stencils, Scaling scaling,
+                                            ConditionNorm norm, double limit)
+const {
+  if constexpr (!ConditionBoundsKernel<Kernel, Dim>) {
+    return Method<Dim>::exceeds_condition(sites, anchors, stencils, scaling, norm, limit);
+  } else {
+    check_needs(sites);
+    const int count = static_cast<int>(anchors.size());
+    std::vector<std::uint8_t> exceeds(anchors.size());
+    ParallelErrors errors;
+#pragma omp parallel
+    {
+      LocalStencil<Dim> local;
+      typename Kernel::Workspace work;
+      std::array<ConditionBounds, block_size> bounds;
+#pragma omp for schedule(dynamic)
+      for (int begin = 0; begin < count; begin += block_size) {
+        const int size = std::min(block_size, count - begin);
+        errors.guard(begin, [&] {
+          kernel_.bound_conditions(sites, anchors.subspan(begin, size), stencils, begin, scaling,
+                                   norm, work, std::span(bounds.data(), size));
+          for (int i = 0; i < size; ++i) {
+            const int place = begin + i;
+            if (bounds[i].upper * (1 + bounds_error) <= limit) {
+              exceeds[place] = 0;
+            } else if (bounds[i].lower * (1 - bounds_error) > limit) {
+              exceeds[place] = 1;
+            } else {
+              const auto outcome = local.gather(sites, stencils[place], anchors[place]);
+              exceeds[place] =
+                  outcome == LocalOutcome::ok &&
+                          condition_number(kernel_.local_matrix(local, scaling), norm) <= limit
+                      ? 0
+                      : 1;
+            }
+          }
+        });
+      }
+    }
+    errors.rethrow();
+    return exceeds;
+  }
 }
 
 }  // namespace strongpoint

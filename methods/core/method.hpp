@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -62,6 +63,17 @@ class Method {
   virtual std::vector<double> condition(const Sites<Dim>& sites, std::span<const int> anchors,
                                         const Stencils& stencils, Scaling scaling,
                                         ConditionNorm norm) const = 0;
+  /// Tells, of each anchor listed, whether its `condition` exceeds a limit or is not a number: 1 or
+  /// 0. A method may decide it by bounds.
+  virtual std::vector<std::uint8_t> exceeds_condition(const Sites<Dim>& sites,
+                                                      std::span<const int> anchors,
+                                                      const Stencils& stencils, Scaling scaling,
+                                                      ConditionNorm norm, double limit) const {
+    const std::vector<double> conditions = condition(sites, anchors, stencils, scaling, norm);
+    std::vector<std::uint8_t> exceeds(conditions.size());
+    for (std::size_t i = 0; i < exceeds.size(); ++i) exceeds[i] = conditions[i] <= limit ? 0 : 1;
+    return exceeds;
+  }
   /// The method used at anchors of a zone; itself unless it is zoned.
   virtual const Method& in_zone(Zone) const { return *this; }
 };

@@ -3,28 +3,57 @@
 #include <algorithm>
 #include <cmath>
 
+#include "methods/core/simd/taylor_condition.hpp"
+
 namespace strongpoint {
 namespace {
 
 /// Numbers of gathered stencils that are treated at a time: they stay in the first-level cache.
 constexpr std::size_t gathered_at_a_time = 3072;
 
+template <class Number>
+void grow_to(std::vector<Number>& numbers, std::size_t size) {
+  if (numbers.size() < size) numbers.resize(size);
+}
+void grow_to(LaneArray& numbers, std::size_t size) {
+  if (numbers.size() < size) numbers.resize(size);
+}
+
 }  // namespace
 
 template <int Dim>
-void TaylorBatch<Dim>::sort_by_size(const StencilBatch<Dim>& batch, int needed) {
+void TaylorBatch<Dim>::sort_by_size(const Sites<Dim>& sites, std::span<const int> anchors,
+                                    const Stencils& stencils, int needed) {
   by_size_.clear();
   bool sorted = true;
-  for (std::size_t i = 0; i < batch.anchors.size(); ++i) {
-    const int anchor = batch.anchors[i];
-    const std::span<const int> nodes = batch.stencils[anchor];
+  for (std::size_t i = 0; i < anchors.size(); ++i) {
+    const std::span<const int> nodes = stencils[stencil_of_place_[i]];
     const int size = static_cast<int>(nodes.size());
     // The centre comes first, unless another node lies there too.
-    if (size < needed || nodes[0] != batch.sites.anchor_node[anchor]) continue;
+    if (size < needed || nodes[0] != sites.anchor_node[anchors[i]]) continue;
     sorted = sorted && (by_size_.empty() || by_size_.back().first <= size);
     by_size_.emplace_back(size, static_cast<int>(i));
   }
   if (!sorted) std::sort(by_size_.begin(), by_size_.end());
+}
+
+template <int Dim>
+template <class Treat>
+void TaylorBatch<Dim>::each_part(Treat treat) {
+  const std::size_t lanes = lanes_of(simd_path());
+  const std::size_t count = by_size_.size();
+  for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
+    const int size = by_size_[std::min(begin + lanes, count) - 1].first;
+    const std::size_t most =
+        std::max<std::size_t>(1, gathered_at_a_time / (lanes * size * (Dim + 2)));
+    end = begin;
+    for (std::size_t group = 0; group < most && end < count; ++group) {
+      const std::size_t next = std::min(end + lanes, count);
+      if (by_size_[next - 1].first != size) break;
+      end = next;
+    }
+    treat(std::span<const Sized>(by_size_.data() + begin, end - begin));
+  }
 }
 
 template <int Dim>
@@ -54,82 +83,76 @@ void TaylorBatch<Dim>::tabulate(const MonomialBasis<Dim>& basis,
 }
 
 template <int Dim>
-GatherTask TaylorBatch<Dim>::gather(const StencilBatch<Dim>& batch, const WeightFunction& weight,
-                                    std::span<const std::pair<int, int>> part) {
+GatherTask TaylorBatch<Dim>::gather(const Sites<Dim>& sites, const StencilTable& table,
+                                    const WeightFunction& weight) {
   const std::size_t lanes = lanes_of(simd_path());
-  const std::size_t groups = (part.size() + lanes - 1) / lanes;
-  const std::size_t size = part.back().first;
-  chosen_.clear();
-  for (const auto& [ignored, place] : part) chosen_.push_back(batch.anchors[place]);
-  z_.resize(std::max(z_.size(), groups * lanes * size * Dim));
-  rho_.resize(std::max(rho_.size(), groups * lanes * size));
-  squared_.resize(rho_.size());
-  radius_.resize(std::max(radius_.size(), groups * lanes));
-  faulty_.resize(std::max(faulty_.size(), groups));
-  done_.resize(faulty_.size());
-  const GatherTask task{{batch.sites.nodes.data(), batch.sites.anchors.data(),
-                         batch.stencils.offsets.data(), batch.stencils.nodes.data(), chosen_.data(),
-                         static_cast<int>(chosen_.size()), static_cast<int>(size)},
-                        Dim,
-                        weight.uses_volumes() ? Distances::squares : Distances::roots,
-                        z_.data(),
-                        rho_.data(),
-                        radius_.data(),
-                        faulty_.data()};
+  const std::size_t groups = (chosen_.size() + lanes - 1) / lanes;
+  const std::size_t size = table.size;
+  grow_to(z_, groups * lanes * size * Dim);
+  grow_to(rho_, groups * lanes * size);
+  grow_to(squared_, groups * lanes * size);
+  grow_to(radius_, groups * lanes);
+  grow_to(faulty_, groups);
+  grow_to(done_, groups);
+  const GatherTask task{
+      table,         Dim,         weight.uses_volumes() ? Distances::squares : Distances::roots,
+      z_.data(),     rho_.data(), radius_.data(),
+      faulty_.data()};
   gather_stencils(task);
   for (std::size_t group = 0; group < groups; ++group) {  // the centre's distance does not count
     double* const centre = rho_.data() + group * lanes * size;
     std::fill(centre, centre + lanes, 1.0);
   }
-  weigh(batch, weight, task);
+  weigh(sites, task, weight);
   return task;
 }
 
 template <int Dim>
-void TaylorBatch<Dim>::weigh(const StencilBatch<Dim>& batch, const WeightFunction& weight,
-                             const GatherTask& task) {
+void TaylorBatch<Dim>::weigh(const Sites<Dim>& sites, const GatherTask& task,
+                             const WeightFunction& weight) {
   const std::size_t lanes = lanes_of(simd_path());
-  const std::size_t size = task.table.size;
+  const StencilTable& table = task.table;
+  const std::size_t size = table.size;
   const std::size_t count = (chosen_.size() + lanes - 1) / lanes * lanes * size;
   if (!weight.uses_volumes()) {
     weight.squared({rho_.data(), count}, {squared_.data(), count});
     return;
   }
+  std::fill_n(squared_.begin(), count, 0.0);
   for (std::size_t i = 0; i < chosen_.size(); ++i) {
     const double unit = std::pow(radius_[i], -Dim);
     double* next = squared_.data() + i / lanes * lanes * size + i % lanes;
-    for (int node : batch.stencils[chosen_[i]]) {
-      *next = batch.sites.volumes[node] * unit;
+    for (std::int64_t e = table.offsets[chosen_[i]]; e < table.offsets[chosen_[i] + 1]; ++e) {
+      *next = sites.volumes[table.ids[e]] * unit;
       next += lanes;
     }
   }
 }
 
 template <int Dim>
-void TaylorBatch<Dim>::fill(const MonomialBasis<Dim>& basis, const WeightFunction& weight,
-                            const TaylorLimits& limits, const StencilBatch<Dim>& batch,
+void TaylorBatch<Dim>::fill(const TaylorParts<Dim>& fit, const StencilBatch<Dim>& batch,
                             Weights& weights, std::span<LocalOutcome> outcomes) {
   const std::size_t lanes = lanes_of(simd_path());
-  sort_by_size(batch, basis.terms() + 1);
-  tabulate(basis, batch.derivatives);
-  const std::size_t count = by_size_.size();
-  for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
-    const int size = by_size_[std::min(begin + lanes, count) - 1].first;
-    const std::size_t most =
-        std::max<std::size_t>(1, gathered_at_a_time / (lanes * size * (Dim + 2)));
-    end = begin;
-    for (std::size_t group = 0; group < most && end < count; ++group) {
-      const std::size_t next = std::min(end + lanes, count);
-      if (by_size_[next - 1].first != size) break;
-      end = next;
-    }
-    const std::span<const std::pair<int, int>> part(by_size_.data() + begin, end - begin);
-    scratch_.resize(std::max(scratch_.size(),
-                             taylor_scratch(size, basis.terms(), batch.derivatives.size(), lanes)));
-    fit_taylor({gather(batch, weight, part),
-                basis.degree(),
-                limits.least_pivot,
-                limits.condition,
+  const int terms = fit.basis.terms();
+  stencil_of_place_.assign(batch.anchors.begin(), batch.anchors.end());
+  sort_by_size(batch.sites, batch.anchors, batch.stencils, terms + 1);
+  tabulate(fit.basis, batch.derivatives);
+  each_part([&](std::span<const Sized> part) {
+    const int size = part.back().first;
+    chosen_.clear();
+    for (const auto& [ignored, place] : part) chosen_.push_back(batch.anchors[place]);
+    const StencilTable table{batch.sites.nodes.data(),
+                             batch.sites.anchors.data(),
+                             batch.stencils.offsets.data(),
+                             batch.stencils.nodes.data(),
+                             chosen_.data(),
+                             static_cast<int>(chosen_.size()),
+                             size};
+    grow_to(scratch_, taylor_scratch(size, terms, batch.derivatives.size(), lanes));
+    fit_taylor({gather(batch.sites, table, fit.weight),
+                fit.basis.degree(),
+                fit.limits.least_pivot,
+                fit.limits.condition,
                 squared_.data(),
                 {batch.derivatives.size(), orders_.data(), factors_.data(), powers_.data()},
                 {batch.sites.points.data(), batch.points.offsets.data(), batch.points.nodes.data(),
@@ -139,7 +162,57 @@ void TaylorBatch<Dim>::fill(const MonomialBasis<Dim>& basis, const WeightFunctio
     for (std::size_t i = 0; i < part.size(); ++i) {
       if ((done_[i / lanes] >> (i % lanes) & 1U) != 0) outcomes[part[i].second] = LocalOutcome::ok;
     }
+  });
+}
+
+template <int Dim>
+void TaylorBatch<Dim>::judge(const TaylorParts<Dim>& fit, const Sites<Dim>& sites,
+                             std::span<const int> anchors, const Stencils& stencils, int first,
+                             Scaling scaling, ConditionNorm norm,
+                             std::span<ConditionBounds> bounds) {
+  const std::size_t lanes = lanes_of(simd_path());
+  const int terms = fit.basis.terms();
+  stencil_of_place_.clear();
+  origins_.clear();
+  orders_.clear();
+  factors_.clear();
+  for (std::size_t i = 0; i < anchors.size(); ++i) {
+    stencil_of_place_.push_back(first + static_cast<int>(i));
+    for (int c = 0; c < Dim; ++c) origins_.push_back(sites.anchors(c, anchors[i]));
   }
+  for (const MultiIndex<Dim>& monomial : fit.basis.monomials()) {
+    factors_.push_back(1 / factorial<Dim>(monomial));
+    orders_.push_back(scaling == Scaling::row ? order_of<Dim>(monomial) : 0);
+  }
+  derivatives_ = {};
+  sort_by_size(sites, anchors, stencils, terms + 1);
+  each_part([&](std::span<const Sized> part) {
+    const int size = part.back().first;
+    chosen_.clear();
+    for (const auto& [ignored, place] : part) chosen_.push_back(place);
+    const StencilTable table{sites.nodes.data(),
+                             origins_.data(),
+                             stencils.offsets.data() + first,
+                             stencils.nodes.data(),
+                             chosen_.data(),
+                             static_cast<int>(chosen_.size()),
+                             size};
+    const std::size_t padded = (part.size() + lanes - 1) / lanes * lanes;
+    grow_to(scratch_, lanes * size * (terms + 1));
+    grow_to(one_, padded);
+    grow_to(maximum_, padded);
+    judge_taylor({gather(sites, table, fit.weight), fit.basis.degree(), fit.limits.least_pivot,
+                  fit.limits.condition, squared_.data(), factors_.data(), orders_.data(),
+                  scratch_.data(), one_.data(), maximum_.data(), done_.data()});
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      if ((done_[i / lanes] >> (i % lanes) & 1U) == 0) continue;
+      // |A|_2^2 <= |A|_1 |A|_max, and either is at most sqrt(m) |A|_2.
+      bounds[part[i].second] = norm == ConditionNorm::one
+                                   ? ConditionBounds{one_[i], one_[i]}
+                                   : ConditionBounds{std::max(one_[i], maximum_[i]) / terms,
+                                                     std::sqrt(one_[i] * maximum_[i])};
+    }
+  });
 }
 
 template class TaylorBatch<1>;

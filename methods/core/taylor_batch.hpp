@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "methods/core/condition.hpp"
 #include "methods/core/local_stencil.hpp"
 #include "methods/core/monomial_basis.hpp"
 #include "methods/core/simd/lane_array.hpp"
@@ -20,6 +21,14 @@ struct TaylorLimits {
   double condition;    ///< in the 1-norm
 };
 
+/// What makes a Taylor fit.
+template <int Dim>
+struct TaylorParts {
+  const MonomialBasis<Dim>& basis;  ///< without the constant
+  const WeightFunction& weight;     ///< sees 1 for distances that do not count
+  TaylorLimits limits;
+};
+
 /// Taylor fits of many anchors side by side, with the buffers of one thread.
 template <int Dim>
 class TaylorBatch {
@@ -28,26 +37,37 @@ class TaylorBatch {
   static bool serves(int order) { return order >= 1 && order <= (Dim == 3 ? 3 : 4); }
 
   /// Writes the weights of all points of the anchors whose normal equations are within the limits,
-  /// and sets their outcomes to ok. The basis has no constant; the weight sees 1 for distances that
-  /// do not count.
-  void fill(const MonomialBasis<Dim>& basis, const WeightFunction& weight,
-            const TaylorLimits& limits, const StencilBatch<Dim>& batch, Weights& weights,
+  /// and sets their outcomes to ok.
+  void fill(const TaylorParts<Dim>& fit, const StencilBatch<Dim>& batch, Weights& weights,
             std::span<LocalOutcome> outcomes);
+  /// Bounds the conditions of local matrices scaled as asked; stencil first + i belongs to
+  /// anchors[i]. What is beyond the limits keeps its bounds.
+  void judge(const TaylorParts<Dim>& fit, const Sites<Dim>& sites, std::span<const int> anchors,
+             const Stencils& stencils, int first, Scaling scaling, ConditionNorm norm,
+             std::span<ConditionBounds> bounds);
 
  private:
-  std::vector<std::pair<int, int>> by_size_;  ///< size of a stencil, its place in the batch
-  std::vector<int> chosen_;
-  LaneArray z_, rho_, squared_, radius_, scratch_;
+  using Sized = std::pair<int, int>;  ///< size of a stencil, its place in the batch
+
+  std::vector<Sized> by_size_;
+  std::vector<int> chosen_, stencil_of_place_;
+  LaneArray z_, rho_, squared_, radius_, scratch_, one_, maximum_;
   std::vector<unsigned> faulty_, done_;
+  std::vector<double> origins_;   ///< (Dim, places) anchors that are judged
   Derivatives<Dim> derivatives_;  ///< those that the next three belong to
   std::vector<int> orders_, powers_;
   std::vector<double> factors_;
 
-  void sort_by_size(const StencilBatch<Dim>& batch, int needed);
+  void sort_by_size(const Sites<Dim>& sites, std::span<const int> anchors, const Stencils& stencils,
+                    int needed);
+  /// Calls treat(part) with parts of by_size_ that share a size, padded, and stay in the cache.
+  template <class Treat>
+  void each_part(Treat treat);
   void tabulate(const MonomialBasis<Dim>& basis, const Derivatives<Dim>& derivatives);
-  GatherTask gather(const StencilBatch<Dim>& batch, const WeightFunction& weight,
-                    std::span<const std::pair<int, int>> part);
-  void weigh(const StencilBatch<Dim>& batch, const WeightFunction& weight, const GatherTask& task);
+  /// Gathers the stencils of `chosen_` and weighs their nodes.
+  GatherTask gather(const Sites<Dim>& sites, const StencilTable& table,
+                    const WeightFunction& weight);
+  void weigh(const Sites<Dim>& sites, const GatherTask& task, const WeightFunction& weight);
 };
 
 extern template class TaylorBatch<1>;

@@ -126,7 +126,18 @@ template <int Dim>
 void TaylorFit<Dim>::fill_batch(const StencilBatch<Dim>& batch, Workspace& work, Weights& weights,
                                 std::span<LocalOutcome> outcomes) const {
   if (!TaylorBatch<Dim>::serves(order()) || batch.derivatives.size() == 0) return;
-  work.batch.fill(basis_, *weight_, batch_limits, batch, weights, outcomes);
+  work.batch.fill({basis_, *weight_, batch_limits}, batch, weights, outcomes);
+}
+
+template <int Dim>
+void TaylorFit<Dim>::bound_conditions(const Sites<Dim>& sites, std::span<const int> anchors,
+                                      const Stencils& stencils, int first, Scaling scaling,
+                                      ConditionNorm norm, Workspace& work,
+                                      std::span<ConditionBounds> bounds) const {
+  std::fill(bounds.begin(), bounds.end(), ConditionBounds{});
+  if (!TaylorBatch<Dim>::serves(order())) return;
+  work.batch.judge({basis_, *weight_, batch_limits}, sites, anchors, stencils, first, scaling, norm,
+                   bounds);
 }
 
 template <int Dim>

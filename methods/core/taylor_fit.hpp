@@ -50,6 +50,11 @@ class TaylorFit {
   /// Weights of the anchors whose normal equations are well conditioned.
   void fill_batch(const StencilBatch<Dim>& batch, Workspace& work, Weights& weights,
                   std::span<LocalOutcome> outcomes) const;
+  /// Bounds of the conditions of the local matrices of some stencils (ConditionBoundsKernel): in
+  /// the 1-norm exact to 1e-6 or better.
+  void bound_conditions(const Sites<Dim>& sites, std::span<const int> anchors,
+                        const Stencils& stencils, int first, Scaling scaling, ConditionNorm norm,
+                        Workspace& work, std::span<ConditionBounds> bounds) const;
   /// The matrix A of thesis (3.15): rows are projections on the monomials, columns Taylor terms
   /// (with their factorials), scaled as asked.
   Eigen::MatrixXd local_matrix(const LocalStencil<Dim>& stencil, Scaling scaling) const;

@@ -26,30 +26,39 @@ class GrowUntil final : public StencilRule<Dim> {
 
   Stencils select(const Sites<Dim>& sites, std::span<const int> anchors, const Method<Dim>& method,
                   const NeighbourSearch<Dim>& search) const override {
-    std::vector<std::vector<int>> chosen;
-    const Stencils base = base_->select(sites, anchors, method, search);
-    chosen.reserve(base.size());
-    for (int i = 0; i < base.size(); ++i) chosen.emplace_back(base[i].begin(), base[i].end());
+    Stencils base = base_->select(sites, anchors, method, search);
     std::vector<int> bad(anchors.size());  // positions in `anchors` still to be judged
     std::iota(bad.begin(), bad.end(), 0);
-    Stencils near;  // the `cap` nearest of each anchor found bad at first
-    std::vector<int> near_of(anchors.size(), -1);
-    while (true) {
-      bad = still_bad(sites, anchors, method, chosen, bad);
-      if (bad.empty()) break;
-      if (near.size() == 0) {
-        std::vector<int> ids;
-        for (int i : bad) {
-          near_of[i] = static_cast<int>(ids.size());
-          ids.push_back(anchors[i]);
-        }
-        near = search.nearest(columns_of<Dim>(sites.anchors, ids), limits_.cap, Ties::keep);
+    bad = still_bad(sites, method, anchors, base, bad);
+    if (bad.empty()) return base;
+    std::vector<int> ids;
+    std::vector<int> grown_of(anchors.size(), -1);  // place among those found bad at first
+    std::vector<std::vector<int>> grown;
+    for (int i : bad) {
+      grown_of[i] = static_cast<int>(ids.size());
+      ids.push_back(anchors[i]);
+      grown.emplace_back(base[i].begin(), base[i].end());
+    }
+    const Stencils near =
+        search.nearest(columns_of<Dim>(sites.anchors, ids), limits_.cap, Ties::keep);
+    while (!bad.empty()) {
+      std::erase_if(bad, [&](int i) {
+        return !grow(sites, anchors[i], near[grown_of[i]], grown[grown_of[i]]);
+      });
+      Stencils judged;
+      ids.clear();
+      for (int i : bad) {
+        judged.push_back(grown[grown_of[i]]);
+        ids.push_back(anchors[i]);
       }
-      std::erase_if(bad,
-                    [&](int i) { return !grow(sites, anchors[i], near[near_of[i]], chosen[i]); });
+      bad = still_bad(sites, method, ids, judged, bad);
     }
     Stencils result;
-    for (const std::vector<int>& nodes : chosen) result.push_back(nodes);
+    result.offsets.reserve(anchors.size() + 1);
+    result.nodes.reserve(base.nodes.size() + base.nodes.size() / 8);
+    for (int i = 0; i < base.size(); ++i) {
+      result.push_back(grown_of[i] < 0 ? base[i] : std::span<const int>(grown[grown_of[i]]));
+    }
     return result;
   }
 
@@ -57,21 +66,15 @@ class GrowUntil final : public StencilRule<Dim> {
   Limits limits_;
   std::unique_ptr<StencilRule<Dim>> base_;
 
-  /// Those of the positions `judged` whose stencils are worse than the limit.
-  std::vector<int> still_bad(const Sites<Dim>& sites, std::span<const int> anchors,
-                             const Method<Dim>& method, const std::vector<std::vector<int>>& chosen,
-                             const std::vector<int>& judged) const {
-    Stencils stencils;
-    std::vector<int> ids;
-    for (int i : judged) {
-      stencils.push_back(chosen[i]);
-      ids.push_back(anchors[i]);
-    }
-    const std::vector<double> conditions =
-        method.condition(sites, ids, stencils, limits_.scaling, limits_.norm);
+  /// Those of some positions whose stencils are worse than the limit; stencil i is of position i.
+  std::vector<int> still_bad(const Sites<Dim>& sites, const Method<Dim>& method,
+                             std::span<const int> anchors, const Stencils& stencils,
+                             const std::vector<int>& positions) const {
+    const std::vector<std::uint8_t> exceeds = method.exceeds_condition(
+        sites, anchors, stencils, limits_.scaling, limits_.norm, limits_.cond_max);
     std::vector<int> bad;
-    for (std::size_t i = 0; i < judged.size(); ++i) {
-      if (!(conditions[i] <= limits_.cond_max)) bad.push_back(judged[i]);
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      if (exceeds[i] != 0) bad.push_back(positions[i]);
     }
     return bad;
   }

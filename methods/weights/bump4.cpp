@@ -7,7 +7,7 @@ WeightEntry weight_bump4() {
   return {{"bump4", "T^2 = (1 - (r/1.1R)^2)^4, R the stencil radius", {}}, [](const Options&) {
             return weight_of_distance([](double rho) {
               const double q = rho / weight_support;
-              return std::pow(1 - q * q, 4);
+              return whole_power(1 - q * q, 4);
             });
           }};
 }

@@ -9,7 +9,7 @@ WeightEntry weight_cubic_spline() {
             return weight_of_distance([](double rho) {
               const double q = rho / weight_support;
               const double t =
-                  q <= 0.5 ? 2.0 / 3 - 4 * q * q * (1 - q) : 4.0 / 3 * std::pow(1 - q, 3);
+                  q <= 0.5 ? 2.0 / 3 - 4 * q * q * (1 - q) : 4.0 / 3 * whole_power(1 - q, 3);
               return t * t;
             });
           }};

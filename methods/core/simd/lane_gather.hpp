@@ -44,22 +44,27 @@ template <int Dim>
 void gather_squares(const StencilTable& table, int first, LaneStencils& group) {
   const int* ids[lanes];
   const double* node[lanes];
+  int counts[lanes];
   double count[lanes];
+  int least = table.size;  // nodes that every lane has
   Pack origin[Dim];
   for (int lane = 0; lane < lanes; ++lane) {
     const int place = first + lane < table.count ? first + lane : table.count - 1;
     const int anchor = table.chosen[place];
     group.anchors[lane] = anchor;
     ids[lane] = table.ids + table.offsets[anchor];
-    count[lane] = static_cast<double>(table.offsets[anchor + 1] - table.offsets[anchor]);
+    counts[lane] = static_cast<int>(table.offsets[anchor + 1] - table.offsets[anchor]);
+    count[lane] = counts[lane];
+    least = counts[lane] < least ? counts[lane] : least;
     node[lane] = table.anchors + static_cast<long>(anchor) * Dim;
   }
   group.size = load(count);
   load_nodes<Dim>(node, origin);
   Pack largest = all(0);
   for (int j = 0; j < table.size; ++j) {
+#pragma GCC unroll 8
     for (int lane = 0; lane < lanes; ++lane) {
-      node[lane] = j < static_cast<int>(count[lane])
+      node[lane] = j < least || j < counts[lane]
                        ? table.nodes + static_cast<long>(ids[lane][j]) * Dim
                        : table.anchors + static_cast<long>(group.anchors[lane]) * Dim;
     }

@@ -11,7 +11,7 @@ constexpr int triangle(int i, int j) { return i * (i + 1) / 2 + j; }
 /// become L, and D^-1 on the diagonal. Returns the bits of the lanes in which every pivot is above
 /// `tolerance` times its diagonal entry.
 template <int Size>
-unsigned factorise_ldlt(Pack* a, double tolerance) {
+[[gnu::always_inline]] inline unsigned factorise_ldlt(Pack* a, double tolerance) {
   unsigned good = every_lane;
   Pack bound[Size];
   for (int i = 0; i < Size; ++i) bound[i] = a[triangle(i, i)] * all(tolerance);
@@ -37,7 +37,7 @@ unsigned factorise_ldlt(Pack* a, double tolerance) {
 
 /// The inverses of matrices from their factors, lower triangles too; `factor` is destroyed.
 template <int Size>
-void invert_ldlt(Pack* factor, Pack* inverse) {
+[[gnu::always_inline]] inline void invert_ldlt(Pack* factor, Pack* inverse) {
   // L^-1 takes the place of L, row after row.
 #pragma GCC unroll 16
   for (int i = 1; i < Size; ++i) {
@@ -71,7 +71,7 @@ void invert_ldlt(Pack* factor, Pack* inverse) {
 
 /// The 1-norm of symmetric matrices given by their lower triangles.
 template <int Size>
-Pack norm_of_symmetric(const Pack* a) {
+[[gnu::always_inline]] inline Pack norm_of_symmetric(const Pack* a) {
   Pack sums[Size];
   for (int i = 0; i < Size; ++i) sums[i] = all(0);
 #pragma GCC unroll 16

@@ -109,7 +109,8 @@ template <int Dim, int Degree>
 /// The moment matrix sum_j w_j b_j b_j^T (lower triangle, row after row) of nodes 1 to n - 1, where
 /// b holds the monomials; `weighted` (terms, n) gets w_j b_j.
 template <int Dim, int Degree>
-void sum_moments(const Pack* z, const Pack* w, int n, Pack* weighted, Pack* moments) {
+[[gnu::always_inline]] inline void sum_moments(const Pack* z, const Pack* w, int n, Pack* weighted,
+                                               Pack* moments) {
   using Table = MomentTable<Dim, Degree>;
   constexpr const Table& table = moment_table<Dim, Degree>;
   Pack sums[Table::size];

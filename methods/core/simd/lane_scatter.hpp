@@ -21,6 +21,11 @@ inline void scatter_lanes(const Pack* rows, int count, double* const* to, unsign
     const int r = begin + lanes <= count ? begin : count - lanes;  // the last ones overlap
     Pack turned[lanes];
     transpose(rows + r, turned);
+    if (bits == every_lane) {
+#pragma GCC unroll 8
+      for (int lane = 0; lane < lanes; ++lane) store(to[lane] + r, turned[lane]);
+      continue;
+    }
     for (int lane = 0; lane < lanes; ++lane) {
       if ((bits >> lane & 1U) != 0) store(to[lane] + r, turned[lane]);
     }

@@ -4,6 +4,7 @@
 #include "methods/core/simd/lane_ldlt.hpp"
 #include "methods/core/simd/lane_monomials.hpp"
 #include "methods/core/simd/lane_scatter.hpp"
+#include "methods/core/simd/lane_weights.hpp"
 
 namespace strongpoint::STRONGPOINT_SIMD_PATH {
 namespace {
@@ -74,16 +75,8 @@ class Group {
 
   /// Bits of the lanes whose moment matrices are well conditioned.
   unsigned factorise() {
-    double size[lanes];
-    for (int lane = 0; lane < lanes; ++lane) {
-      const std::int64_t* const offsets = table_.offsets + anchor(lane);
-      size[lane] = static_cast<double>(offsets[1] - offsets[0]);
-    }
-    const Pack sizes = load(size);
     Pack* const weights = rows_;  // free until the solutions are known
-    for (int j = 1; j < size_; ++j) {
-      weights[j] = choose(less(all(j), sizes), squared_[j], all(0));
-    }
+    mask_weights(table_, first_, squared_, weights);
     Pack moments[terms * (terms + 1) / 2];
     sum_moments<Dim, Order>(z_, weights, size_, weighted_, moments);
     const Pack norm = norm_of_symmetric<terms>(moments);
@@ -124,7 +117,7 @@ class Group {
     Pack at[Dim];
     load_nodes<Dim>(place, at);
     load_nodes<Dim>(origin, from);
-    for (int c = 0; c < Dim; ++c) at[c] = (at[c] - from[c]) / radius_;
+    for (int c = 0; c < Dim; ++c) at[c] = (at[c] - from[c]) * order_factor_[1];
     monomials[0] = all(1);
     evaluate_monomials<Dim, Order>(at, monomials + 1);
   }

@@ -1,0 +1,180 @@
+// Taylor fits side by side: each path against fits made one by one, in any company.
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include "methods/core/condition.hpp"
+#include "methods/core/taylor_fit.hpp"
+#include "tests/contract_support.hpp"
+
+namespace strongpoint {
+namespace {
+
+/// Runs a check on every path that the processor has.
+template <class Check>
+void on_every_path(Check check) {
+  const SimdPath before = simd_path();
+  for (SimdPath path : simd_paths()) {
+    SCOPED_TRACE(name_of(path));
+    use_simd_path(path);
+    check();
+  }
+  use_simd_path(before);
+}
+
+/// Sites with two more evaluation points at every third anchor, off the anchor.
+template <int Dim>
+Sites<Dim> with_points_off_anchors(Sites<Dim> sites) {
+  const int count = sites.anchor_count();
+  const int extra = (count + 2) / 3;
+  sites.points.conservativeResize(Dim, count + 2 * extra);
+  for (int i = 0; i < 2 * extra; ++i) {
+    const int anchor = i / 2 * 3;
+    sites.points.col(count + i) =
+        sites.anchors.col(anchor) + Point<Dim>::Constant(i % 2 == 0 ? 0.01 : -0.02);
+    sites.point_anchor.push_back(anchor);
+  }
+  return sites;
+}
+
+/// Weights of all points, one anchor after the other, without a batch.
+template <int Dim>
+Weights one_by_one(const TaylorFit<Dim>& fit, const Sites<Dim>& sites, const Stencils& stencils,
+                   const Derivatives<Dim>& derivatives) {
+  Weights weights = weights_on_stencils<Dim>(sites, stencils, derivatives.size());
+  LocalStencil<Dim> local;
+  typename TaylorFit<Dim>::Workspace work;
+  for (int p = 0; p < sites.point_count(); ++p) {
+    const int anchor = sites.point_anchor[p];
+    EXPECT_EQ(local.gather(sites, stencils[anchor], anchor), LocalOutcome::ok);
+    EXPECT_EQ(fit.factorise(local, work), LocalOutcome::ok);
+    Eigen::Map<Eigen::MatrixXd> row = weights.row(p);
+    const Point<Dim> offset = (sites.points.col(p) - sites.anchors.col(anchor)) / local.radius;
+    fit.evaluate(local, work, offset, derivatives, row);
+    for (int d = 0; d < derivatives.size(); ++d) {
+      row.row(d) *= std::pow(local.radius, -order_of<Dim>(derivatives[d]));
+    }
+  }
+  return weights;
+}
+
+/// Round-off of systems of condition up to 1e6, of which refinement leaves the square root.
+constexpr double largest_difference = 1e-9;
+
+template <int Dim>
+void matches_one_by_one(const std::string& spec, int order, const std::string& cloud) {
+  SCOPED_TRACE(spec + " on " + cloud);
+  const auto scene = make_scene<Dim>(spec, cloud, test_level<Dim>(order), 1);
+  const auto& method = dynamic_cast<const TaylorMethod<Dim>&>(*scene.method);
+  const Sites<Dim> sites = with_points_off_anchors<Dim>(scene.sites);
+  const auto derivatives = Derivatives<Dim>::between_orders(0, order);
+  const Weights expected = one_by_one<Dim>(method.kernel(), sites, scene.stencils, derivatives);
+  on_every_path([&] {
+    const Weights found = method.weights(sites, scene.stencils, derivatives);
+    ASSERT_EQ(found.columns, expected.columns);
+    for (int p = 0; p < found.size(); ++p) {
+      for (int d = 0; d < derivatives.size(); ++d) {
+        const double size = expected.row(p).row(d).cwiseAbs().maxCoeff();
+        EXPECT_LE((found.row(p).row(d) - expected.row(p).row(d)).cwiseAbs().maxCoeff(),
+                  largest_difference * size)
+            << "point " << p << ' ' << name_of<Dim>(derivatives[d]);
+      }
+    }
+  });
+}
+
+TEST(TaylorBatch, MatchesFitsMadeOneByOneOnEveryPath) {
+  for (const char* cloud : {"grid", "perturbed[amount=0.3]"}) {
+    for (int order = 1; order <= 4; ++order) {
+      matches_one_by_one<1>(fmt::format("lsfdm[order={}]", order), order, cloud);
+      matches_one_by_one<2>(fmt::format("lsfdm[order={}]", order), order, cloud);
+    }
+    for (int order = 1; order <= 3; ++order) {
+      matches_one_by_one<3>(fmt::format("lsfdm[order={}]", order), order, cloud);
+    }
+    matches_one_by_one<2>("gfdm", 2, cloud);
+    matches_one_by_one<2>("gfdm[weight=volume]", 2, cloud);
+  }
+}
+
+/// Stencils of every `stride`-th anchor only; the others are left empty.
+Stencils every(const Stencils& stencils, int stride) {
+  Stencils chosen;
+  for (int a = 0; a < stencils.size(); ++a) {
+    chosen.push_back(a % stride == 0 ? stencils[a] : std::span<const int>{});
+  }
+  return chosen;
+}
+
+TEST(TaylorBatch, GivesAnAnchorTheSameBitsInAnyCompany) {
+  const auto scene = make_scene<2>("gfdm", "perturbed[amount=0.3]", 20, 1);
+  const auto derivatives = Derivatives<2>::between_orders(1, 2);
+  const Sites<2> sites = with_points_off_anchors<2>(scene.sites);
+  on_every_path([&] {
+    const Weights all = scene.method->weights(sites, scene.stencils, derivatives);
+    for (int stride : {2, 3, 7}) {
+      const Weights some = scene.method->weights(sites, every(scene.stencils, stride), derivatives);
+      for (int p = 0; p < some.size(); ++p) {
+        if (some.nodes(p).empty()) continue;
+        EXPECT_TRUE((some.row(p).array() == all.row(p).array()).all()) << p;
+      }
+    }
+  });
+}
+
+TEST(TaylorBatch, GivesTheSameBitsOnAnyNumberOfThreads) {
+  const auto scene = make_scene<2>("lsfdm", "perturbed[amount=0.3]", 30, 1);
+  const auto derivatives = Derivatives<2>::between_orders(1, 2);
+  omp_set_num_threads(1);
+  const Weights one = scene.method->weights(scene.sites, scene.stencils, derivatives);
+  omp_set_num_threads(3);
+  const Weights three = scene.method->weights(scene.sites, scene.stencils, derivatives);
+  omp_set_num_threads(1);
+  EXPECT_EQ(one.values, three.values);
+}
+
+template <int Dim>
+void decides_as_exact_conditions(const std::string& spec) {
+  SCOPED_TRACE(spec);
+  const auto scene = make_scene<Dim>(spec, "perturbed[amount=0.4]", Dim == 2 ? 20 : 9, 1);
+  const std::vector<int> anchors = scene.sites.wanted_anchors();
+  for (Scaling scaling : {Scaling::both, Scaling::row}) {
+    for (ConditionNorm norm : {ConditionNorm::one, ConditionNorm::two}) {
+      const std::vector<double> exact =
+          scene.method->condition(scene.sites, anchors, scene.stencils, scaling, norm);
+      for (double limit : {30.0, 100.0, 1e3, 1e5, 1e7}) {
+        on_every_path([&] {
+          const auto exceeds = scene.method->exceeds_condition(scene.sites, anchors, scene.stencils,
+                                                               scaling, norm, limit);
+          for (std::size_t i = 0; i < exact.size(); ++i) {
+            EXPECT_EQ(exceeds[i] != 0, !(exact[i] <= limit)) << exact[i] << " against " << limit;
+          }
+        });
+      }
+    }
+  }
+}
+
+TEST(TaylorBatch, DecidesConditionsAsExactOnesDo) {
+  decides_as_exact_conditions<2>("mfpm");
+  decides_as_exact_conditions<2>("gfdm[weight=cubic_spline]");
+  decides_as_exact_conditions<3>("mfpm");
+}
+
+TEST(TaylorBatch, KeepsTheErrorsOfDegenerateStencils) {
+  Points<2> nodes(2, 12);
+  for (int i = 0; i < 12; ++i) nodes.col(i) = Point<2>(i, 0);  // on a line
+  const Sites<2> sites = sites_at_nodes<2>(nodes);
+  const Stencils stencils = make_search<2>("brute", nodes)->nearest(nodes, 9, Ties::keep);
+  const auto method = make_method<2>("lsfdm").made;
+  on_every_path([&] {
+    try {
+      method->weights(sites, stencils, {{1, 0}});
+      ADD_FAILURE() << "nodes on a line pass";
+    } catch (const CaseError& error) {
+      EXPECT_NE(std::string(error.what()).find("degenerate"), std::string::npos) << error.what();
+    }
+  });
+}
+
+}  // namespace
+}  // namespace strongpoint
