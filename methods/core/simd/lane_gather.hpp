@@ -8,10 +8,10 @@ namespace strongpoint::STRONGPOINT_SIMD_PATH {
 /// The stencils of a group of anchors, one a lane, in coordinates scaled by their radii. A stencil
 /// smaller than the table's size is padded with copies of its anchor.
 struct LaneStencils {
-  Pack* z;              ///< (Dim, n) positions relative to the anchor over R, node after node
-  Pack* rho;            ///< (n) distances over R, ascending; 1 for padding
   Pack radius;          ///< R, the largest distance; 1 in lanes without any
   Pack size;            ///< nodes in each lane's stencil
+  Pack* z;              ///< (Dim, n) positions relative to the anchor over R, node after node
+  Pack* rho;            ///< (n) distances over R, ascending; 1 for padding
   int anchors[lanes];   ///< the last one repeated where the group is not full
   unsigned coincident;  ///< bits of the lanes in which nodes are closer than 1e-10 R, or R is 0
 };

@@ -52,18 +52,18 @@ class Group {
  private:
   static constexpr int highest_order = Order;
 
+  Pack inverse_[terms * (terms + 1) / 2];
+  Pack order_factor_[highest_order + 1];  ///< R^-order
+  Pack radius_;
   const TaylorTask& task_;
   const StencilTable& table_;
-  int size_;
-  int first_;
   const Pack* z_;
   const Pack* squared_;
-  Pack radius_;
   Pack* weighted_;  ///< (terms, n) T^2 times the monomials
   Pack* rows_;      ///< (D, n) weights
-  Pack inverse_[terms * (terms + 1) / 2];
-  unsigned delicate_;                     ///< lanes whose solutions are refined
-  Pack order_factor_[highest_order + 1];  ///< R^-order
+  int size_;
+  int first_;
+  unsigned delicate_ = 0;  ///< lanes whose solutions are refined
 
   int anchor(int lane) const {
     return table_.chosen[first_ + lane < table_.count ? first_ + lane : table_.count - 1];
