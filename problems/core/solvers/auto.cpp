@@ -20,7 +20,7 @@ std::vector<std::string> plan_for(const LinearSystem& system) {
   const std::int64_t many = system.dimension == 3 ? many_in_space : many_in_plane;
   if (!is_blocked || system.dimension < 2 || system.unknowns() < many) return {"umfpack"};
   if (system.dimension == 2) {
-    return {"bicgstab[precond=amg,tolerance=1e-10,iterations=150]", "umfpack"};
+    return {"bicgstab[precond=amg,tolerance=1e-10,iterations=80]", "umfpack"};
   }
   return {"bicgstab[precond=ilu0,tolerance=1e-10,iterations=200]",
           "bicgstab[tolerance=1e-10,iterations=300]", "umfpack"};
