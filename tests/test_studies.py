@@ -177,7 +177,7 @@ class Refusals(StudyTest):
         self.assert_refused(["--stencil", "closest"], "--stencil", "closest", "nearest")
         self.assert_refused(["--cloud", "mesh"], "--cloud", "mesh", "perturbed")
         self.assert_refused(["--form", "weak"], "--form", "weak", "collocation")
-        self.assert_refused(["--solver", "mumps"], "--solver", "mumps", "umfpack")
+        self.assert_refused(["--solver", "pardiso"], "--solver", "pardiso", "umfpack")
         self.assert_refused(["--neighbours", "octree"], "--neighbours", "octree", "nanoflann")
 
     def test_unknown_keys_are_refused_with_the_known_ones(self):

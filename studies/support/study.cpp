@@ -201,7 +201,7 @@ void GridRun::finish() {
 void GridRun::interrupted() {
   constexpr std::chrono::seconds patience(10);  // a step takes less
   monitor_.save.ask(patience);
-  const std::lock_guard lock(mutex_);
+  mutex_.lock();  // never given back: no row may follow the tables
   try {
     if (started_) finish();
   } catch (const WriteError& error) {
