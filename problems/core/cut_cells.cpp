@@ -170,6 +170,8 @@ void join_rim(CutCell& cell, const Outside& outside, const Rim& rim) {
   }
   for (int i = outside.count - 1; i >= rim.count; --i) {
     const int last = --cell.vertices;
+    // The analyser does not see that `classify` filled the list.
+    // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult)
     if (outside.vertex[i] != last) move_vertex(cell, last, outside.vertex[i]);
     cell.x[last] = cell.y[last] = cell.z[last] = cell.squared[last] = 0;
   }
