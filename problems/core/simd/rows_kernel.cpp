@@ -38,13 +38,13 @@ struct Buffers {
   static constexpr int entries = Fields * Fields;  ///< of a node, in all rows
   static constexpr int width = padded(entries, lanes);
 
-  alignas(64) int ids[most_kernel_nodes + block];
   alignas(64) int rank[most_kernel_nodes];
-  int sorted[most_kernel_nodes];
   alignas(64) double coefficients[most_kernel_derivatives][width];
-  alignas(64) double sums[most_kernel_nodes + lanes][width];
+  alignas(64) int ids[most_kernel_nodes + block];
   alignas(64) std::int64_t columns[most_kernel_nodes * Fields];
+  alignas(64) double sums[most_kernel_nodes + lanes][width];
   double scales[Fields];
+  int sorted[most_kernel_nodes];
 };
 
 template <int Fields>
