@@ -32,6 +32,7 @@ TEST(Fronts, ARowThatIsBeatenInTimeAndErrorIsNotOnTheFront) {
   std::vector<std::vector<Row>> cases = two_methods();
   mark_fronts(cases);
   std::vector<std::string> marks;
+  marks.reserve(cases.size());
   for (const std::vector<Row>& rows : cases) marks.push_back(rows.front().extra[0]);
   EXPECT_EQ(marks, (std::vector<std::string>{"front", "front", "", "", "", "front"}));
 }

@@ -1,6 +1,7 @@
 // The iterative solvers with every preconditioner, their parts, and the choice between solvers.
 #include <set>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <omp.h>
 
@@ -67,7 +68,7 @@ TEST(IterativeSolvers, AgreeWithUmfpackOnRandomSystemsOfEveryBlockSize) {
     const Eigen::VectorXd direct = solve(system, "umfpack").x;
     for (const std::string& iteration : iterations) {
       for (const std::string& preconditioner : preconditioners) {
-        const std::string spec = iteration + "[precond=" + preconditioner + "]";
+        const std::string spec = fmt::format("{}[precond={}]", iteration, preconditioner);
         const LinearSolution solution = solve(system, spec);
         EXPECT_LT(difference(solution.x, direct), iterative_error) << spec << fields;
         EXPECT_GT(solution.iterations, 0);

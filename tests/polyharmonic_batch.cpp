@@ -156,7 +156,8 @@ TEST(PolyharmonicBatch, LeavesStencilsThatAreNotSafeUndecided) {
   Points<2> nodes(2, 40);
   for (int i = 0; i < 10; ++i) nodes.col(i) = Point<2>(0.1 * i, 0);
   for (int i = 10; i < 40; ++i) {
-    nodes.col(i) = Point<2>(3 + i % 5 + 0.1 * std::sin(i), i / 5 + 0.1 * std::cos(2 * i));
+    const int column = i % 5, row = i / 5;
+    nodes.col(i) = Point<2>(3 + column + 0.1 * std::sin(i), row + 0.1 * std::cos(2 * i));
   }
   nodes.col(39) = nodes.col(38);
   const Sites<2> sites = sites_at_nodes<2>(nodes);
