@@ -50,7 +50,8 @@ double reproduction_error(const LocalCase<Dim>& local, const Weights& weights,
       ++j;
     }
     const double error = (sum.array().abs() / size.array().max(1e-300)).maxCoeff();
-    worst = error <= worst ? worst : error;  // NaN is the worst
+    if (!std::isfinite(error)) return error;
+    worst = std::max(worst, error);
   }
   return worst;
 }

@@ -9,21 +9,10 @@
 #include "methods/core/polyharmonic.hpp"
 #include "methods/core/simd/path.hpp"
 #include "tests/contract_support.hpp"
+#include "tests/simd_paths.hpp"
 
 namespace strongpoint {
 namespace {
-
-/// Runs a check on every path that the processor has.
-template <class Check>
-void on_every_path(Check check) {
-  const SimdPath before = simd_path();
-  for (SimdPath path : simd_paths()) {
-    SCOPED_TRACE(name_of(path));
-    use_simd_path(path);
-    check();
-  }
-  use_simd_path(before);
-}
 
 template <int Dim>
 struct Batch {

@@ -5,21 +5,10 @@
 #include "methods/core/condition.hpp"
 #include "methods/core/taylor_fit.hpp"
 #include "tests/contract_support.hpp"
+#include "tests/simd_paths.hpp"
 
 namespace strongpoint {
 namespace {
-
-/// Runs a check on every path that the processor has.
-template <class Check>
-void on_every_path(Check check) {
-  const SimdPath before = simd_path();
-  for (SimdPath path : simd_paths()) {
-    SCOPED_TRACE(name_of(path));
-    use_simd_path(path);
-    check();
-  }
-  use_simd_path(before);
-}
 
 /// Sites with two more evaluation points at every third anchor, off the anchor.
 template <int Dim>

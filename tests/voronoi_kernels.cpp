@@ -1,6 +1,5 @@
 // Voronoi cells made side by side and as graphs, on every path of the processor.
 #include <cmath>
-#include <functional>
 #include <memory>
 #include <numeric>
 #include <random>
@@ -13,6 +12,7 @@
 #include "problems/core/cut_cells.hpp"
 #include "problems/core/random.hpp"
 #include "problems/core/voronoi.hpp"
+#include "tests/simd_paths.hpp"
 #include "tests/voronoi_oracle.hpp"
 
 namespace strongpoint {
@@ -24,17 +24,6 @@ constexpr double sum_round_off = 1e-12;
 /// CGAL computes circumcentres in plain doubles, which lose digits in flat triangles and
 /// tetrahedra; graded clouds have more of them.
 constexpr double oracle_round_off = 1e-8;
-
-/// Runs a check on each path.
-void on_every_path(const std::function<void()>& check) {
-  const SimdPath before = simd_path();
-  for (SimdPath path : simd_paths()) {
-    SCOPED_TRACE(name_of(path));
-    use_simd_path(path);
-    check();
-  }
-  use_simd_path(before);
-}
 
 template <int Dim>
 PointCloud<Dim> cloud_of(const Points<Dim>& nodes) {

@@ -40,7 +40,6 @@ void PolyharmonicBatch<Dim>::prepare(int phs, const Derivatives<Dim>& monomials,
   task_.dimension = Dim;
   task_.phs = phs;
   task_.terms = monomials.size();
-  task_.degree = monomials.highest_order();
   task_.exponents = exponents_.data();
   task_.derivatives = derivatives.size();
   task_.orders = orders_.data();

@@ -21,7 +21,6 @@ struct PolyharmonicTask {
   int dimension;
   int phs;               ///< odd
   int terms;             ///< m, monomials, at most table.size
-  int degree;            ///< of the monomials
   const int* exponents;  ///< (Dim, m) of the monomials, by degree
 
   int derivatives;            ///< D
