@@ -15,19 +15,10 @@
 
 #include "methods/core/error.hpp"
 #include "problems/core/random.hpp"
+#include "tests/random_nodes.hpp"
 
 namespace strongpoint {
 namespace {
-
-template <int Dim>
-Points<Dim> random_nodes(int count, std::uint64_t seed) {
-  std::mt19937_64 generator(seed);
-  Points<Dim> nodes(Dim, count);
-  for (int i = 0; i < count; ++i) {
-    for (int c = 0; c < Dim; ++c) nodes(c, i) = uniform01(generator);
-  }
-  return nodes;
-}
 
 /// A grid whose spacing is no binary fraction: equal distances differ in round-off.
 template <int Dim>

@@ -93,10 +93,9 @@ class CollocationRows {
 
   /// True when a mirrored plane through the node reverses a field, which is zero there.
   bool is_reversed(const Node<Dim>& node, int field) const {
-    for (const SymmetryPlane& plane : planes_) {
-      if (node.on(plane.side) && problem_.vector_axis(field) == plane.axis) return true;
-    }
-    return false;
+    return std::any_of(planes_.begin(), planes_.end(), [&](const SymmetryPlane& plane) {
+      return node.on(plane.side) && problem_.vector_axis(field) == plane.axis;
+    });
   }
 
   /// The differential equations hold on a mirrored plane as they do inside.
