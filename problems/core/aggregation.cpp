@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 
 namespace strongpoint {
 namespace {
@@ -25,12 +26,12 @@ struct Couplings {
 };
 
 template <int Size>
-Couplings strong_couplings(const BlockMatrix<Size>& matrix, double strong) {
+Couplings find_couplings(const BlockMatrix<Size>& matrix, const StrongCouplings& strong) {
   // Below this share of the diagonal block a row couples to nothing.
   constexpr double least_share = 1e-8;
   Couplings couplings;
   couplings.offsets.reserve(matrix.rows() + 1);
-  std::vector<double> sizes;
+  std::vector<double> sizes, sorted;
   for (int row = 0; row < matrix.rows(); ++row) {
     const std::int64_t begin = matrix.offsets[row];
     const std::int64_t end = matrix.offsets[row + 1];
@@ -42,7 +43,14 @@ Couplings strong_couplings(const BlockMatrix<Size>& matrix, double strong) {
       double& most = matrix.columns[i] == row ? diagonal : largest;
       most = std::max(most, sizes.back());
     }
-    const double least = std::max(strong * largest, least_share * diagonal);
+    double least = std::max(strong.share * largest, least_share * diagonal);
+    // The diagonal block, larger than most, is one of them.
+    if (static_cast<int>(sizes.size()) > strong.most + 1) {
+      sorted = sizes;
+      std::nth_element(sorted.begin(), sorted.begin() + strong.most, sorted.end(),
+                       std::greater<>());
+      least = std::max(least, sorted[strong.most]);
+    }
     for (std::int64_t i = begin; i < end; ++i) {
       if (matrix.columns[i] == row || !(sizes[i - begin] >= least) || largest == 0) continue;
       couplings.columns.push_back(matrix.columns[i]);
@@ -152,8 +160,8 @@ Block<Size> inverse_diagonal(const BlockMatrix<Size>& matrix, int row) {
 }  // namespace
 
 template <int Size>
-Aggregates aggregate(const BlockMatrix<Size>& matrix, double strong) {
-  const Couplings couplings = strong_couplings(matrix, strong);
+Aggregates aggregate(const BlockMatrix<Size>& matrix, const StrongCouplings& strong) {
+  const Couplings couplings = find_couplings(matrix, strong);
   Aggregates aggregates;
   aggregates.of_node.assign(matrix.rows(), undecided);
   const auto each_undecided = [&](const auto& visit) {
@@ -216,8 +224,8 @@ CoarseLevel<Size> coarsen(const BlockMatrix<Size>& matrix, const Aggregates& agg
   return level;
 }
 
-#define STRONGPOINT_INSTANTIATE(size) /* every block size that a solver takes */ \
-  template Aggregates aggregate(const BlockMatrix<size>&, double);               \
+#define STRONGPOINT_INSTANTIATE(size) /* every block size that a solver takes */   \
+  template Aggregates aggregate(const BlockMatrix<size>&, const StrongCouplings&); \
   template CoarseLevel<size> coarsen(const BlockMatrix<size>&, const Aggregates&);
 STRONGPOINT_INSTANTIATE(1)
 STRONGPOINT_INSTANTIATE(2)

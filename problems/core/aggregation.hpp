@@ -13,12 +13,20 @@ struct Aggregates {
   int count = 0;
 };
 
-/// Groups each node with the neighbours that its rows couple it to by at least `strong` times their
-/// largest off-diagonal block; a node coupled to none, such as a fixed one, stays outside. Source:
-/// Vaněk, Mandel, Brezina 1996, algorithm 5.1, with blocks for numbers. Deviation: a coupling is
-/// measured against its row's largest, as the rows are not symmetric.
+/// Which off-diagonal blocks of a row couple two nodes strongly.
+struct StrongCouplings {
+  double share = 0.07;  ///< of the row's largest, at least
+  int most = 12;        ///< the largest of them; wide stencils would make aggregates too large
+};
+
+/// Groups each node with the neighbours that its rows couple it to strongly; a node coupled to
+/// none, such as a fixed one, stays outside. Source: Vaněk, Mandel, Brezina 1996, algorithm 5.1,
+/// with blocks for numbers. Deviations: a coupling is measured against its row's largest, as the
+/// rows are not symmetric, and few are strong however wide the stencil is. Measured: only the
+/// inward couplings of a one-sided row reach a quarter of its largest; aggregates along them alone
+/// let the iteration stall.
 template <int Size>
-Aggregates aggregate(const BlockMatrix<Size>& matrix, double strong);
+Aggregates aggregate(const BlockMatrix<Size>& matrix, const StrongCouplings& strong);
 
 /// The Galerkin product of plain aggregation and what a cycle needs of it. P holds one for each
 /// node in its aggregate; D is the block diagonal of A, by which the rows of collocation become

@@ -19,7 +19,7 @@ template <int Size>
 class BlockAmg : public Preconditioner {
  public:
   struct Parameters {
-    double strong = 0.25;       ///< couplings that aggregate, relative to the row's largest
+    StrongCouplings strong;     ///< that make aggregates
     double enlarge = 1.5;       ///< what a correction by constants is multiplied by; measured
     int coarsest_nodes = 1500;  ///< at most, on the level that is solved directly
   };
