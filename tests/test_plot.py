@@ -6,6 +6,7 @@ import importlib.util
 import pathlib
 import re
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -52,6 +53,31 @@ class PlotTest(unittest.TestCase):
         self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
         for word in words:
             self.assertIn(word, result.stderr)
+
+    def test_work_precision_gives_errors_against_time_with_a_front_that_nothing_beats(self):
+        rows = [{**row, "t_total": 10.0**k, "front": ""} for method in ("mfpm", "lsfdm")
+                for k, row in enumerate(self.error_rows(method))]
+        rows[1]["value"] = 10  # slower and worse than the first
+        self.write(rows, CONTRACT + TIMES + ["front"])
+        result = plot(self.table, "-o", self.directory)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertTrue((self.directory / "convergence_poisson-square_u-error_time.png").stat().st_size)
+        sys.path.insert(0, str(PLOT.parent))
+        import fronts
+        points = [(1, 0.5), (2, 0.7), (3, 0.1), (4, 0.1)]
+        front = fronts.front_of([{"level": i, "t_total": t, "value": v} for i, (t, v) in enumerate(points)])
+        self.assertEqual(front, [(1, 0.5), (3, 0.1)])
+
+    def test_scaling_gives_stages_and_memory_against_nodes(self):
+        rows = [{**row, "per_node": 1, "exponent": "1.02"} for quantity in ("weights", "total", "memory")
+                for row in self.error_rows(order=-2, quantity=quantity)]
+        self.write(rows, CONTRACT + ["per_node", "exponent"])
+        result = plot(self.table, "-o", self.directory)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        (drawn,) = self.directory.glob("*.svg")
+        self.assertIn("1.02", drawn.read_text(encoding="utf-8"))
+        self.write(rows[:1], CONTRACT + ["per_node", "exponent"])
+        self.assert_refused(plot(self.table, "-o", self.directory), "nothing to draw")
 
     def test_error_table_gives_a_png_and_an_svg_per_quantity(self):
         self.write(self.error_rows() + self.error_rows(quantity="u_max_error"))
