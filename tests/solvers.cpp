@@ -5,6 +5,7 @@
 #include <omp.h>
 
 #include "bench/elastic_system.hpp"
+#include "problems/core/sparse_factor.hpp"
 #include "tests/linear_systems.hpp"
 
 namespace strongpoint {
@@ -175,6 +176,37 @@ TEST(OrderAlong, SortsACoordinateWithTiesByIndex) {
   Eigen::VectorXd x(5);
   x << 0.5, -1, 0.5, 2, -1;
   EXPECT_EQ(order_along(x), (std::vector<int>{1, 4, 0, 2, 3}));
+}
+
+/// Rows of very different size, so that UMFPACK scales them, without symmetry.
+TEST(TriangularFactors, SolveAsUmfpackDoes) {
+  std::mt19937_64 generator(11);
+  for (const int n : {1, 2, 7, 60, 200}) {
+    Eigen::MatrixXd dense = sparse_matrix(n, n, 0.1, generator);
+    for (int i = 0; i < n; ++i) {
+      dense(i, (i * 3 + 1) % n) += 2;  // no row is empty
+      dense(i, i) += 3;
+      dense.row(i) *= std::pow(10.0, i % 7 - 3);
+    }
+    RowMatrix matrix = dense.sparseView();
+    matrix.makeCompressed();
+    for (const auto ordering :
+         {SparseFactor::Ordering::usual, SparseFactor::Ordering::least_fill}) {
+      TriangularFactors factors = [&] {
+        const SparseFactor factor(
+            Eigen::Map<const RowMatrix>(n, n, matrix.nonZeros(), matrix.outerIndexPtr(),
+                                        matrix.innerIndexPtr(), matrix.valuePtr()),
+            ordering);
+        return factor.packed();
+      }();
+      const Eigen::VectorXd x = random_vector(n, generator);
+      const Eigen::VectorXd b = dense * x;
+      Eigen::VectorXd found(n);
+      factors.solve(b.data(), found.data());
+      EXPECT_LT((found - x).lpNorm<Eigen::Infinity>(), 1e-10) << n;
+      EXPECT_GE(factors.bytes(), n * sizeof(double));
+    }
+  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "methods/core/error.hpp"
+#include "problems/core/sparse_factor.hpp"
 
 namespace strongpoint {
 namespace {
@@ -64,25 +65,26 @@ void BlockAmg<Size>::factorise(const BlockMatrix<Size>& matrix) {
   direct_r_.resize(unknowns);
   direct_z_.resize(unknowns);
   if (unknowns == 0) return;
-  coarsest_.resize(unknowns, unknowns);
-  coarsest_.reserve(static_cast<Eigen::Index>(matrix.columns.size()) * Size * Size);
+  RowMatrix coarsest(unknowns, unknowns);
+  coarsest.reserve(static_cast<Eigen::Index>(matrix.columns.size()) * Size * Size);
   for (Eigen::Index row = 0; row < unknowns; ++row) {
-    coarsest_.startVec(row);
+    coarsest.startVec(row);
     for (std::int64_t i = matrix.offsets[row / Size]; i < matrix.offsets[row / Size + 1]; ++i) {
       for (int j = 0; j < Size; ++j) {
         const Eigen::Index column = static_cast<Eigen::Index>(matrix.columns[i]) * Size + j;
-        coarsest_.insertBack(row, column) = matrix.values[(i * Size + j) * Size + row % Size];
+        coarsest.insertBack(row, column) = matrix.values[(i * Size + j) * Size + row % Size];
       }
     }
   }
-  coarsest_.finalize();
-  factor_ = std::make_unique<SparseFactor>(Eigen::Map<const RowMatrix>(
-      unknowns, unknowns, coarsest_.nonZeros(), coarsest_.outerIndexPtr(),
-      coarsest_.innerIndexPtr(), coarsest_.valuePtr()));
-  if (factor_->fault() != SparseFactor::Fault::none) {
+  coarsest.finalize();
+  const SparseFactor factor(
+      Eigen::Map<const RowMatrix>(unknowns, unknowns, coarsest.nonZeros(), coarsest.outerIndexPtr(),
+                                  coarsest.innerIndexPtr(), coarsest.valuePtr()));
+  if (factor.fault() != SparseFactor::Fault::none) {
     throw CaseError(
         fmt::format("the coarsest matrix of {} unknowns is singular; take precond=ilut", unknowns));
   }
+  factors_.emplace(factor.packed());
 }
 
 template <int Size>
@@ -128,9 +130,9 @@ template <int Size>
 void BlockAmg<Size>::solve_coarse(std::size_t index, const Eigen::VectorXf& r,
                                   Eigen::VectorXf& z) const {
   if (index == levels_.size()) {
-    if (!factor_) return;
+    if (!factors_) return;
     direct_r_ = r.cast<double>();
-    factor_->solve(direct_r_.data(), direct_z_.data(), SparseFactor::Refinement::none);
+    factors_->solve(direct_r_.data(), direct_z_.data());
     z = direct_z_.cast<float>();
     return;
   }
@@ -152,8 +154,7 @@ int BlockAmg<Size>::shifted_pivots() const {
 
 template <int Size>
 std::size_t BlockAmg<Size>::bytes() const {
-  std::size_t sum = coarsest_.nonZeros() * (sizeof(double) + sizeof(std::int64_t));
-  if (factor_) sum += factor_->bytes();
+  std::size_t sum = factors_ ? factors_->bytes() : 0;
   for (const Level& level : levels_) {
     sum += level.matrix.bytes() + level.smoother.bytes() + level.fine_to_coarse.bytes() +
            level.aggregates.size() * sizeof(int) + level.inverses.size() * sizeof(float) +

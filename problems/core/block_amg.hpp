@@ -1,11 +1,11 @@
 #pragma once
 
-#include <memory>
+#include <optional>
 #include <vector>
 
 #include "problems/core/aggregation.hpp"
 #include "problems/core/preconditioner.hpp"
-#include "problems/core/sparse_factor.hpp"
+#include "problems/core/triangular_factors.hpp"
 
 namespace strongpoint {
 
@@ -44,8 +44,7 @@ class BlockAmg : public Preconditioner {
   };
   Parameters parameters_;
   std::vector<Level> levels_;
-  RowMatrix coarsest_;
-  std::unique_ptr<SparseFactor> factor_;
+  std::optional<TriangularFactors> factors_;
   mutable Eigen::VectorXd direct_r_, direct_z_;
 
   BlockMatrix<Size> add_level(const BlockMatrix<Size>& matrix, const Aggregates& aggregates);

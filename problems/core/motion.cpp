@@ -29,19 +29,19 @@ void check(const SparseFactor& factor, const char* what, const char* remedy) {
 /// A matrix with its factors.
 struct Factored {
   RowMatrix matrix;
-  std::optional<SparseFactor> factor;
+  std::optional<TriangularFactors> factors;
 
   void compute(const char* what, const char* remedy) {
     matrix.makeCompressed();
-    factor.emplace(Eigen::Map<const RowMatrix>(matrix.rows(), matrix.cols(), matrix.nonZeros(),
-                                               matrix.outerIndexPtr(), matrix.innerIndexPtr(),
-                                               matrix.valuePtr()),
-                   SparseFactor::Ordering::least_fill);
-    check(*factor, what, remedy);
+    const SparseFactor factor(
+        Eigen::Map<const RowMatrix>(matrix.rows(), matrix.cols(), matrix.nonZeros(),
+                                    matrix.outerIndexPtr(), matrix.innerIndexPtr(),
+                                    matrix.valuePtr()),
+        SparseFactor::Ordering::least_fill);
+    check(factor, what, remedy);
+    factors.emplace(factor.packed());
   }
-  void solve(const double* b, double* x) const {
-    factor->solve(b, x, SparseFactor::Refinement::none);
-  }
+  void solve(const double* b, double* x) const { factors->solve(b, x); }
 };
 
 /// The rows chosen of a system, row i times `factor(i)`, with the columns at their places.

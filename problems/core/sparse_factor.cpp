@@ -38,8 +38,6 @@ struct SparseFactor::Objects {
     // The default of 0.1 lets the factors grow: traction rows at 161^2 nodes left a residual of
     // 1e-1. Full partial pivoting solves them to round-off and is no slower.
     control[UMFPACK_PIVOT_TOLERANCE] = 1;
-    plain = control;
-    plain[UMFPACK_IRSTEP] = 0;
   }
   Objects(const Objects&) = delete;
   Objects& operator=(const Objects&) = delete;
@@ -66,7 +64,7 @@ struct SparseFactor::Objects {
                                info);
   }
 
-  std::array<double, UMFPACK_CONTROL> control{}, plain{};
+  std::array<double, UMFPACK_CONTROL> control{};
   std::vector<SuiteSparse_long> indices;
   std::vector<double> numbers;
   void* symbolic = nullptr;
@@ -94,14 +92,17 @@ SparseFactor::SparseFactor(const Eigen::Map<const RowMatrix>& matrix, Ordering o
 
 SparseFactor::~SparseFactor() = default;
 
-void SparseFactor::solve(const double* b, double* x, Refinement refinement) const {
+void SparseFactor::solve(const double* b, double* x) const {
   if (fault_ != Fault::none) throw std::logic_error("factors of a matrix that has none");
   Objects& objects = *objects_;
-  const std::array<double, UMFPACK_CONTROL>& control =
-      refinement == Refinement::usual ? objects.control : objects.plain;
   umfpack_dl_wsolve(UMFPACK_At, as_long(matrix_.outerIndexPtr()), as_long(matrix_.innerIndexPtr()),
-                    matrix_.valuePtr(), x, b, objects.numeric, control.data(), nullptr,
+                    matrix_.valuePtr(), x, b, objects.numeric, objects.control.data(), nullptr,
                     objects.indices.data(), objects.numbers.data());
+}
+
+TriangularFactors SparseFactor::packed() const {
+  if (fault_ != Fault::none) throw std::logic_error("factors of a matrix that has none");
+  return TriangularFactors(objects_->numeric);
 }
 
 }  // namespace strongpoint

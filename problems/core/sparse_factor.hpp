@@ -5,6 +5,8 @@
 
 #include <Eigen/SparseCore>
 
+#include "problems/core/triangular_factors.hpp"
+
 namespace strongpoint {
 
 /// A sparse matrix in compressed rows with 64-bit indices.
@@ -43,12 +45,12 @@ class SparseFactor {
   std::size_t bytes() const { return bytes_; }
   /// Most memory that the factorisation took, factors included.
   std::size_t peak_bytes() const { return peak_bytes_; }
-  /// Steps of iterative refinement after a solve: none, or as many as UMFPACK takes by default,
-  /// which suits who solves once.
-  enum class Refinement { none, usual };
-  /// Solves A x = b, n numbers each, without allocating. Throws std::logic_error for factors with a
-  /// fault. Not to be called from several threads.
-  void solve(const double* b, double* x, Refinement refinement) const;
+  /// Solves A x = b, n numbers each, with iterative refinement, without allocating. Throws
+  /// std::logic_error for factors with a fault. Not to be called from several threads.
+  void solve(const double* b, double* x) const;
+  /// The factors for many solves without refinement, which outlive this object. Throws
+  /// std::logic_error for factors with a fault.
+  TriangularFactors packed() const;
 
  private:
   struct Objects;

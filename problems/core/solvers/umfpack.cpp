@@ -50,7 +50,7 @@ LinearSolution solve_with(const LinearSystem& system, const SparseFactor& factor
   LinearSolution solution;
   solution.bytes = factor.peak_bytes();
   solution.x.resize(system.rows());
-  factor.solve(system.right_hand_side.data(), solution.x.data(), SparseFactor::Refinement::usual);
+  factor.solve(system.right_hand_side.data(), solution.x.data());
   return solution;
 }
 
