@@ -7,6 +7,8 @@
 #include <string>
 #include <sys/resource.h>
 
+#include "methods/core/kept_memory.hpp"
+
 namespace strongpoint {
 
 double StageClock::now() const {
@@ -20,8 +22,9 @@ double StageClock::now() const {
 }
 
 void reset_peak_memory() {
+  release_kept_memory();  // what earlier cases freed must not count as this one's
 #ifdef __GLIBC__
-  malloc_trim(0);  // what earlier cases freed must not count as this one's
+  malloc_trim(0);
 #endif
   std::ofstream("/proc/self/clear_refs") << "5";  // Linux: resets VmHWM
 }
