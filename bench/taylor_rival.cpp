@@ -4,19 +4,40 @@
 
 namespace {
 
-/// One stencil after the other, in storage of fixed size.
-template <int Dim, int Size>
+/// One stencil after the other, as a library of strong forms does: the code is made for a dimension
+/// and an order, the number of nodes and the weight function are known when it
+/// runs.
+template <int Dim>
 struct Rival {
   static constexpr int terms = Dim * (Dim + 3) / 2;
   using Square = Eigen::Matrix<double, terms, terms>;
-  Eigen::Matrix<double, Dim, Size> z;
-  Eigen::Matrix<double, terms, Size> basis;
+  Eigen::Matrix<double, Dim, Eigen::Dynamic> z;
+  Eigen::Matrix<double, terms, Eigen::Dynamic> basis, weighted;
+  Eigen::RowVectorXd distances, squared;  ///< over R; T^2
   Square moments;
   Eigen::Matrix<double, terms, Eigen::Dynamic, 0, terms, terms> right, solution;
   Eigen::PartialPivLU<Square> lu;
 
+  void resize(int size) {
+    z.resize(Dim, size);
+    basis.resize(terms, size);
+    weighted.resize(terms, size);
+    distances.resize(size);
+    squared.resize(size);
+  }
+  /// Fills the positions over the stencil's radius; returns 1 / R.
+  double gather(const double* nodes, const int* ids, int centre_place) {
+    using Place = Eigen::Map<const Eigen::Matrix<double, Dim, 1>>;
+    const Place centre(nodes + static_cast<std::int64_t>(centre_place) * Dim);
+    for (int j = 0; j < z.cols(); ++j) {
+      z.col(j) = Place(nodes + static_cast<std::int64_t>(ids[j]) * Dim) - centre;
+    }
+    const double inverse = 1 / z.col(z.cols() - 1).norm();  // the farthest comes last
+    z *= inverse;
+    return inverse;
+  }
   void fill_basis() {
-    for (int j = 0; j < Size; ++j) {
+    for (int j = 0; j < z.cols(); ++j) {
       int place = 0;
       for (int a = 0; a < Dim; ++a) basis(place++, j) = z(a, j);
       for (int a = 0; a < Dim; ++a) {
@@ -31,19 +52,17 @@ struct Rival {
   }
   void run(const TaylorRivalTask& task, const int* monomials) {
     const int count = task.derivatives;
+    const int size = task.size;
+    resize(size);
     for (int i = 0; i < task.count; ++i) {
-      const int* const ids = task.ids + static_cast<std::int64_t>(i) * Size;
-      const Eigen::Map<const Eigen::Matrix<double, Dim, 1>> centre(
-          task.nodes + static_cast<std::int64_t>(i) * Dim);
-      for (int j = 0; j < Size; ++j) {
-        z.col(j) = Eigen::Map<const Eigen::Matrix<double, Dim, 1>>(
-                       task.nodes + static_cast<std::int64_t>(ids[j]) * Dim) -
-                   centre;
-      }
-      const double inverse = 1 / z.col(Size - 1).norm();
-      z *= inverse;
+      const double inverse =
+          gather(task.nodes, task.ids + static_cast<std::int64_t>(i) * size, i);
       fill_basis();
-      moments.noalias() = basis * basis.transpose();
+      distances = z.colwise().norm();
+      task.weigh(distances.data(), size, squared.data());
+      squared[0] = 0;  // the centre's value is known
+      weighted.noalias() = basis * squared.asDiagonal();
+      moments.noalias() = weighted * basis.transpose();
       lu.compute(moments);
       if (task.conditions != nullptr) {
         const Square inverted = lu.inverse();
@@ -56,10 +75,10 @@ struct Rival {
         right(a, d) = (a < Dim ? inverse : inverse * inverse) * (is_square(a) ? 2 : 1);
       }
       solution = lu.solve(right);
-      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Size>> weights(
-          task.values + static_cast<std::int64_t>(i) * count * Size, count, Size);
-      weights.noalias() = solution.transpose() * basis;
-      weights.col(0) = -weights.template rightCols<Size - 1>().rowwise().sum();
+      Eigen::Map<Eigen::MatrixXd> weights(
+          task.values + static_cast<std::int64_t>(i) * count * size, count, size);
+      weights.noalias() = solution.transpose() * weighted;
+      weights.col(0) = -weights.rightCols(size - 1).rowwise().sum();
     }
   }
 };
@@ -72,10 +91,10 @@ void taylor_rival_weights(const TaylorRivalTask* task) {
   static constexpr int squares_3d[] = {3, 6, 8};
   const bool is_laplacian = task->derivatives == task->dim;
   if (task->dim == 2) {
-    static thread_local Rival<2, 15> rival;
+    static thread_local Rival<2> rival;
     rival.run(*task, is_laplacian ? squares : every);
   } else {
-    static thread_local Rival<3, 30> rival;
+    static thread_local Rival<3> rival;
     rival.run(*task, is_laplacian ? squares_3d : every);
   }
 }

@@ -1,5 +1,6 @@
 // Goals of Taylor-fit weights: order 2 on 15 nodes in 2D and 30 in 3D, all first and second
 // derivatives or the Laplacian's, against Eigen's pivoted LU of each moment matrix.
+#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -36,6 +37,9 @@ LocalCase<Dim> make_case() {
   return made;
 }
 
+/// The weight function of the unweighted fit, as a function that is chosen when the program runs.
+void weigh_equally(const double*, int size, double* squared) { std::fill_n(squared, size, 1.0); }
+
 /// The rival's weights.
 template <int Dim>
 Weights rival_weights(const LocalCase<Dim>& local, const Derivatives<Dim>& derivatives,
@@ -48,7 +52,8 @@ Weights rival_weights(const LocalCase<Dim>& local, const Derivatives<Dim>& deriv
                              local.sites.nodes.data(),
                              local.stencils.nodes.data(),
                              weights.values.data(),
-                             conditions};
+                             conditions,
+                             weigh_equally};
   taylor_rival_weights(&task);
   return weights;
 }
