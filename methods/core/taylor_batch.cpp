@@ -11,6 +11,9 @@ namespace {
 /// Numbers of gathered stencils that are treated at a time: they stay in the first-level cache.
 constexpr std::size_t gathered_at_a_time = 3072;
 
+/// Weights from which on they are written past the caches, in which so many would not stay.
+constexpr std::size_t least_streamed = std::size_t{1} << 21;
+
 template <class Number>
 void grow_to(std::vector<Number>& numbers, std::size_t size) {
   if (numbers.size() < size) numbers.resize(size);
@@ -24,16 +27,20 @@ void grow_to(LaneArray& numbers, std::size_t size) {
 template <int Dim>
 void TaylorBatch<Dim>::sort_by_size(const Sites<Dim>& sites, std::span<const int> anchors,
                                     const Stencils& stencils, int needed) {
-  by_size_.clear();
+  by_size_.resize(anchors.size());
+  std::size_t count = 0;
   bool sorted = true;
+  int before = 0;
   for (std::size_t i = 0; i < anchors.size(); ++i) {
     const std::span<const int> nodes = stencils[stencil_of_place_[i]];
     const int size = static_cast<int>(nodes.size());
     // The centre comes first, unless another node lies there too.
     if (size < needed || nodes[0] != sites.anchor_node[anchors[i]]) continue;
-    sorted = sorted && (by_size_.empty() || by_size_.back().first <= size);
-    by_size_.emplace_back(size, static_cast<int>(i));
+    sorted = sorted && before <= size;
+    before = size;
+    by_size_[count++] = {size, static_cast<int>(i)};
   }
+  by_size_.resize(count);
   if (!sorted) std::sort(by_size_.begin(), by_size_.end());
 }
 
@@ -66,8 +73,10 @@ void TaylorBatch<Dim>::tabulate(const MonomialBasis<Dim>& basis,
   orders_.clear();
   factors_.clear();
   powers_.clear();
+  own_.clear();
   for (const MultiIndex<Dim>& alpha : derivatives) {
     orders_.push_back(order_of<Dim>(alpha));
+    own_.push_back(orders_.back() == 0 ? -1 : basis.monomials().index(alpha));
     for (const MultiIndex<Dim>& monomial : basis.monomials()) {
       MultiIndex<Dim> left{};
       bool vanishes = false;
@@ -95,10 +104,15 @@ GatherTask TaylorBatch<Dim>::gather(const Sites<Dim>& sites, const StencilTable&
   grow_to(faulty_, groups);
   grow_to(done_, groups);
   const GatherTask task{
-      table,         Dim,         weight.uses_volumes() ? Distances::squares : Distances::roots,
-      z_.data(),     rho_.data(), radius_.data(),
+      table,
+      Dim,
+      weight.uses_volumes() || weight.is_one() ? Distances::squares : Distances::roots,
+      z_.data(),
+      rho_.data(),
+      radius_.data(),
       faulty_.data()};
   gather_stencils(task);
+  if (weight.is_one()) return task;
   for (std::size_t group = 0; group < groups; ++group) {  // the centre's distance does not count
     double* const centre = rho_.data() + group * lanes * size;
     std::fill(centre, centre + lanes, 1.0);
@@ -153,10 +167,11 @@ void TaylorBatch<Dim>::fill(const TaylorParts<Dim>& fit, const StencilBatch<Dim>
                 fit.basis.degree(),
                 fit.limits.least_pivot,
                 fit.limits.condition,
-                squared_.data(),
-                {batch.derivatives.size(), orders_.data(), factors_.data(), powers_.data()},
+                fit.weight.is_one() ? nullptr : squared_.data(),
+                {batch.derivatives.size(), orders_.data(), factors_.data(), powers_.data(), own_.data()},
                 {batch.sites.points.data(), batch.points.offsets.data(), batch.points.nodes.data(),
                  weights.offsets.data(), weights.values.data()},
+                weights.values.size() >= least_streamed ? Output::streamed : Output::cached,
                 scratch_.data(),
                 done_.data()});
     for (std::size_t i = 0; i < part.size(); ++i) {
@@ -198,11 +213,11 @@ void TaylorBatch<Dim>::judge(const TaylorParts<Dim>& fit, const Sites<Dim>& site
                              static_cast<int>(chosen_.size()),
                              size};
     const std::size_t padded = (part.size() + lanes - 1) / lanes * lanes;
-    grow_to(scratch_, lanes * size * (terms + 1));
+    grow_to(scratch_, lanes * size);
     grow_to(one_, padded);
     grow_to(maximum_, padded);
     judge_taylor({gather(sites, table, fit.weight), fit.basis.degree(), fit.limits.least_pivot,
-                  fit.limits.condition, squared_.data(), factors_.data(), orders_.data(),
+                  fit.limits.condition, fit.weight.is_one() ? nullptr : squared_.data(), factors_.data(), orders_.data(),
                   scratch_.data(), one_.data(), maximum_.data(), done_.data()});
     for (std::size_t i = 0; i < part.size(); ++i) {
       if ((done_[i / lanes] >> (i % lanes) & 1U) == 0) continue;

@@ -55,7 +55,7 @@ class TaylorBatch {
   std::vector<unsigned> faulty_, done_;
   std::vector<double> origins_;   ///< (Dim, places) anchors that are judged
   Derivatives<Dim> derivatives_;  ///< those that the next three belong to
-  std::vector<int> orders_, powers_;
+  std::vector<int> orders_, powers_, own_;
   std::vector<double> factors_;
 
   void sort_by_size(const Sites<Dim>& sites, std::span<const int> anchors, const Stencils& stencils,

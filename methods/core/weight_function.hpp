@@ -21,6 +21,8 @@ class WeightFunction {
 
   /// True when the weight is the cell measure of a node instead of a function of its distance.
   virtual bool uses_volumes() const { return false; }
+  /// True when T is 1 at every distance: it need not be asked for.
+  virtual bool is_one() const { return false; }
   /// T^2 at the distances `rho` = r / R, in (0, 1], R being the stencil's largest distance. Called
   /// once per stencil; never called for a weight that uses volumes.
   virtual void squared(std::span<const double> rho, std::span<double> result) const = 0;

@@ -16,12 +16,15 @@ struct LaneStencils {
   unsigned coincident;  ///< bits of the lanes in which nodes are closer than 1e-10 R, or R is 0
 };
 
+/// As rho_i + rho_j <= 2, squares farther apart than this belong to distances that differ by more
+/// than 1e-10.
+inline constexpr double distinct_squares = 2e-10;
+
 /// Bits of the lanes in which two nodes coincide, given the squares of their distances over R.
 template <int Dim>
 unsigned coincident_lanes(const LaneStencils& group, const Pack* squares, int size) {
   const Pack tolerance = all(1e-10);  // in units of R, as for stencils one by one
-  // As rho_i + rho_j <= 2, squares farther apart than this belong to distances that differ by more.
-  const Pack apart = all(2e-10);
+  const Pack apart = all(distinct_squares);
   unsigned found = 0;
   for (int i = 0; i + 1 < size; ++i) {
     for (int j = i + 1; j < size; ++j) {
@@ -38,54 +41,90 @@ unsigned coincident_lanes(const LaneStencils& group, const Pack* squares, int si
   return found;
 }
 
-/// Gathers the stencils of anchors `first` and following of a table as `gather_lanes` does, but
-/// leaves the squares of the distances in `rho`.
-template <int Dim>
-void gather_squares(const StencilTable& table, int first, LaneStencils& group) {
+/// Whether some lanes have fewer nodes.
+enum class Padding { none, some };
+
+/// Where the nodes of a group lie.
+struct LaneNodes {
   const int* ids[lanes];
-  const double* node[lanes];
   int counts[lanes];
-  double count[lanes];
-  int least = table.size;  // nodes that every lane has
-  Pack origin[Dim];
-  for (int lane = 0; lane < lanes; ++lane) {
-    const int place = first + lane < table.count ? first + lane : table.count - 1;
-    const int anchor = table.chosen[place];
-    group.anchors[lane] = anchor;
-    ids[lane] = table.ids + table.offsets[anchor];
-    counts[lane] = static_cast<int>(table.offsets[anchor + 1] - table.offsets[anchor]);
-    count[lane] = counts[lane];
-    least = counts[lane] < least ? counts[lane] : least;
-    node[lane] = table.anchors + static_cast<long>(anchor) * Dim;
-  }
-  group.size = load(count);
-  load_nodes<Dim>(node, origin);
+  int least;  ///< nodes that every lane has
+};
+
+/// Fills `z`, not yet scaled, and the squares of the distances for nodes begin to end - 1; returns
+/// the largest square.
+template <int Dim, Padding padding>
+[[gnu::always_inline]] inline Pack gather_nodes(const StencilTable& table, const LaneNodes& nodes,
+                                                int begin, int end, const Pack* origin,
+                                                const LaneStencils& group) {
   Pack largest = all(0);
-  for (int j = 0; j < table.size; ++j) {
+  for (int j = begin; j < end; ++j) {
+    const double* node[lanes];
 #pragma GCC unroll 8
     for (int lane = 0; lane < lanes; ++lane) {
-      node[lane] = j < least || j < counts[lane]
-                       ? table.nodes + static_cast<long>(ids[lane][j]) * Dim
+      node[lane] = padding == Padding::none || j < nodes.counts[lane]
+                       ? table.nodes + static_cast<long>(nodes.ids[lane][j]) * Dim
                        : table.anchors + static_cast<long>(group.anchors[lane]) * Dim;
     }
-    Pack* const z = group.z + static_cast<long>(j) * Dim;
+    Pack z[Dim];
     load_nodes<Dim>(node, z);
     Pack square = all(0);
     for (int c = 0; c < Dim; ++c) {
       z[c] = z[c] - origin[c];
       square = square + z[c] * z[c];
+      group.z[static_cast<long>(j) * Dim + c] = z[c];
     }
     group.rho[j] = square;
     largest = max(largest, square);
+  }
+  return largest;
+}
+
+/// Gathers the stencils of anchors `first` and following of a table as `gather_lanes` does, but
+/// leaves the squares of the distances in `rho`.
+template <int Dim>
+void gather_squares(const StencilTable& table, int first, LaneStencils& group) {
+  LaneNodes nodes;
+  const double* anchor_place[lanes];
+  double count[lanes];
+  nodes.least = table.size;
+  for (int lane = 0; lane < lanes; ++lane) {
+    const int place = first + lane < table.count ? first + lane : table.count - 1;
+    const int anchor = table.chosen[place];
+    group.anchors[lane] = anchor;
+    nodes.ids[lane] = table.ids + table.offsets[anchor];
+    nodes.counts[lane] = static_cast<int>(table.offsets[anchor + 1] - table.offsets[anchor]);
+    count[lane] = nodes.counts[lane];
+    nodes.least = nodes.counts[lane] < nodes.least ? nodes.counts[lane] : nodes.least;
+    anchor_place[lane] = table.anchors + static_cast<long>(anchor) * Dim;
+  }
+  group.size = load(count);
+  Pack origin[Dim];
+  load_nodes<Dim>(anchor_place, origin);
+  Pack largest = gather_nodes<Dim, Padding::none>(table, nodes, 0, nodes.least, origin, group);
+  if (nodes.least < table.size) {
+    const Pack rest =
+        gather_nodes<Dim, Padding::some>(table, nodes, nodes.least, table.size, origin, group);
+    largest = max(largest, rest);
   }
   const unsigned proper = less(all(0), largest);
   group.radius = choose(proper, sqrt(largest), all(1));
   const Pack inverse = all(1) / group.radius;
   for (int i = 0; i < table.size * Dim; ++i) group.z[i] = group.z[i] * inverse;
+  Pack nearest = all(1);
+  Pack before = all(-1);
   for (int j = 0; j < table.size; ++j) {
-    group.rho[j] = choose(less(all(j), group.size), group.rho[j] * inverse * inverse, all(1));
+    Pack square = group.rho[j] * inverse * inverse;
+    if (j >= nodes.least) square = choose(less(all(j), group.size), square, all(1));
+    nearest = min(nearest, square - before);
+    before = square;
+    group.rho[j] = square;
   }
-  group.coincident = (every_lane & ~proper) | coincident_lanes<Dim>(group, group.rho, table.size);
+  group.coincident = every_lane & ~proper;
+  // Nodes at one place are equally far away.
+  if (less(nearest, all(distinct_squares)) != 0) {
+    group.coincident |= coincident_lanes<Dim>(group, group.rho, table.size);
+  }
 }
 
 /// Gathers the stencils of anchors `first` and following of a table; `lanes` of them or what is

@@ -106,26 +106,54 @@ template <int Dim, int Degree>
   }
 }
 
+/// Sums that stay in registers at a time, beside the monomials.
+inline constexpr int sums_at_once = lanes == 8 ? 18 : 8;
+
+/// Fills sums Begin to End - 1 of the moment table, over nodes 1 to n - 1.
+template <int Dim, int Degree, int Begin, int End>
+[[gnu::always_inline]] inline void sum_some_moments(const Pack* z, const Pack* w, int n,
+                                                    Pack* sums) {
+  using Table = MomentTable<Dim, Degree>;
+  constexpr const Table& table = moment_table<Dim, Degree>;
+  Pack some[End - Begin];
+#pragma GCC unroll 32
+  for (int s = 0; s < End - Begin; ++s) some[s] = all(0);
+  for (int j = 1; j < n; ++j) {
+    Pack basis[Table::terms];
+    Pack weighted[Table::terms];
+    evaluate_monomials<Dim, Degree>(z + static_cast<long>(j) * Dim, basis);
+    const Pack weight = w[j];
+#pragma GCC unroll 64
+    for (int a = 0; a < Table::terms; ++a) weighted[a] = weight * basis[a];
+#pragma GCC unroll 32
+    for (int s = 0; s < End - Begin; ++s) {
+      some[s] = some[s] + weighted[table.first[Begin + s]] * basis[table.second[Begin + s]];
+    }
+  }
+#pragma GCC unroll 32
+  for (int s = 0; s < End - Begin; ++s) sums[Begin + s] = some[s];
+}
+
+/// The same for all sums from Begin on, in parts of about the same size.
+template <int Dim, int Degree, int Begin = 0>
+[[gnu::always_inline]] inline void sum_moments_from(const Pack* z, const Pack* w, int n,
+                                                    Pack* sums) {
+  constexpr int left = MomentTable<Dim, Degree>::size - Begin;
+  constexpr int parts = (left + sums_at_once - 1) / sums_at_once;
+  constexpr int end = Begin + (left + parts - 1) / parts;
+  sum_some_moments<Dim, Degree, Begin, end>(z, w, n, sums);
+  if constexpr (parts > 1) sum_moments_from<Dim, Degree, end>(z, w, n, sums);
+}
+
 /// The moment matrix sum_j w_j b_j b_j^T (lower triangle, row after row) of nodes 1 to n - 1, where
-/// b holds the monomials; `weighted` (terms, n) gets w_j b_j.
+/// b holds the monomials.
 template <int Dim, int Degree>
-[[gnu::always_inline]] inline void sum_moments(const Pack* z, const Pack* w, int n, Pack* weighted,
+[[gnu::always_inline]] inline void sum_moments(const Pack* z, const Pack* w, int n,
                                                Pack* moments) {
   using Table = MomentTable<Dim, Degree>;
   constexpr const Table& table = moment_table<Dim, Degree>;
   Pack sums[Table::size];
-  for (int s = 0; s < Table::size; ++s) sums[s] = all(0);
-  for (int j = 1; j < n; ++j) {
-    Pack basis[Table::terms];
-    evaluate_monomials<Dim, Degree>(z + static_cast<long>(j) * Dim, basis);
-    Pack* const row = weighted + static_cast<long>(j) * Table::terms;
-#pragma GCC unroll 64
-    for (int a = 0; a < Table::terms; ++a) row[a] = w[j] * basis[a];
-#pragma GCC unroll 128
-    for (int s = 0; s < Table::size; ++s) {
-      sums[s] = sums[s] + row[table.first[s]] * basis[table.second[s]];
-    }
-  }
+  sum_moments_from<Dim, Degree>(z, w, n, sums);
 #pragma GCC unroll 256
   for (int entry = 0; entry < Table::terms * (Table::terms + 1) / 2; ++entry) {
     moments[entry] = sums[table.sum[entry]];

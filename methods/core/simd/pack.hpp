@@ -27,6 +27,9 @@ using Pack = __m512d;
 
 inline Pack load(const double* from) { return _mm512_loadu_pd(from); }
 inline void store(double* to, Pack a) { _mm512_storeu_pd(to, a); }
+/// Stores past the caches, to a place that begins a pack; `end_streams` comes before others read.
+inline void stream(double* to, Pack a) { _mm512_stream_pd(to, a); }
+inline void end_streams() { _mm_sfence(); }
 inline Pack all(double a) { return _mm512_set1_pd(a); }
 inline Pack sqrt(Pack a) { return _mm512_sqrt_pd(a); }
 inline Pack abs(Pack a) { return _mm512_abs_pd(a); }
@@ -41,7 +44,7 @@ inline Pack choose(unsigned bits, Pack a, Pack b) {
 
 /// Nodes of all lanes side by side: `to[c]` gets coordinate c of node[0], node[1], ...
 template <int Dim>
-void load_nodes(const double* const* node, Pack* to) {
+[[gnu::always_inline]] inline void load_nodes(const double* const* node, Pack* to) {
   // Masked broadcasts from memory: shuffles are scarcer than loads.
   if constexpr (Dim >= 2) {
     Pack even = _mm512_castpd128_pd512(_mm_loadu_pd(node[0]));
@@ -57,12 +60,15 @@ void load_nodes(const double* const* node, Pack* to) {
   }
   if constexpr (Dim != 2) {
     constexpr int c = Dim - 1;
-    Pack last = all(node[0][c]);
-    for (int lane = 1; lane < lanes; ++lane) {
-      last = _mm512_mask_broadcastsd_pd(last, static_cast<__mmask8>(1U << lane),
-                                        _mm_load_sd(node[lane] + c));
+    Pack half[2];  // two chains
+    for (int h = 0; h < 2; ++h) {
+      half[h] = all(node[4 * h][c]);
+      for (int lane = 4 * h + 1; lane < 4 * h + 4; ++lane) {
+        half[h] = _mm512_mask_broadcastsd_pd(half[h], static_cast<__mmask8>(1U << lane),
+                                             _mm_load_sd(node[lane] + c));
+      }
     }
-    to[c] = last;
+    to[c] = _mm512_mask_blend_pd(0xF0, half[0], half[1]);
   }
 }
 
@@ -92,6 +98,8 @@ using Pack = __m256d;
 
 inline Pack load(const double* from) { return _mm256_loadu_pd(from); }
 inline void store(double* to, Pack a) { _mm256_storeu_pd(to, a); }
+inline void stream(double* to, Pack a) { _mm256_stream_pd(to, a); }
+inline void end_streams() { _mm_sfence(); }
 inline Pack all(double a) { return _mm256_set1_pd(a); }
 inline Pack sqrt(Pack a) { return _mm256_sqrt_pd(a); }
 inline Pack abs(Pack a) { return _mm256_andnot_pd(_mm256_set1_pd(-0.0), a); }
@@ -108,7 +116,7 @@ inline Pack choose(unsigned bits, Pack a, Pack b) {
 
 /// Nodes of all lanes side by side: `to[c]` gets coordinate c of node[0], node[1], ...
 template <int Dim>
-void load_nodes(const double* const* node, Pack* to) {
+[[gnu::always_inline]] inline void load_nodes(const double* const* node, Pack* to) {
   if constexpr (Dim >= 2) {
     const Pack even = _mm256_set_m128d(_mm_loadu_pd(node[2]), _mm_loadu_pd(node[0]));
     const Pack odd = _mm256_set_m128d(_mm_loadu_pd(node[3]), _mm_loadu_pd(node[1]));
@@ -140,6 +148,8 @@ using Pack = double;
 
 inline Pack load(const double* from) { return *from; }
 inline void store(double* to, Pack a) { *to = a; }
+inline void stream(double* to, Pack a) { *to = a; }
+inline void end_streams() {}
 inline Pack all(double a) { return a; }
 inline Pack sqrt(Pack a) { return __builtin_sqrt(a); }
 inline Pack abs(Pack a) { return __builtin_fabs(a); }
@@ -148,7 +158,7 @@ inline Pack max(Pack a, Pack b) { return a > b ? a : b; }
 inline unsigned less(Pack a, Pack b) { return a < b ? 1 : 0; }
 inline Pack choose(unsigned bits, Pack a, Pack b) { return bits != 0 ? a : b; }
 template <int Dim>
-void load_nodes(const double* const* node, Pack* to) {
+[[gnu::always_inline]] inline void load_nodes(const double* const* node, Pack* to) {
   for (int c = 0; c < Dim; ++c) to[c] = node[0][c];
 }
 inline void transpose(const Pack* from, Pack* to) { *to = *from; }

@@ -37,9 +37,9 @@ unsigned judge_group(const TaylorConditionTask& task, int first) {
   Pack* const weights = reinterpret_cast<Pack*>(task.scratch);
   Pack moments[terms * (terms + 1) / 2];
   Pack inverse[terms * (terms + 1) / 2];
-  mask_weights(table, first, reinterpret_cast<const Pack*>(task.squared) + rows, weights);
+  mask_weights(table, first, squares_of(task.squared, rows), weights);
   sum_moments<Dim, Order>(reinterpret_cast<const Pack*>(task.gathered.z) + rows * Dim, weights,
-                          table.size, weights + table.size, moments);
+                          table.size, moments);
   const Pack radius = load(task.gathered.radius + first);
   Pack factors[terms];
   Pack inverse_factors[terms];

@@ -10,10 +10,11 @@ struct TaylorConditionTask {
   int order;           ///< highest degree of the monomials
   double least_pivot;  ///< over its diagonal entry
   double limit;        ///< of the 1-norm condition of the moment matrix, for its inverse to count
-  const double* squared;  ///< (lane, n, group) T^2; those of centre and padding are not read
+  const double* squared;  ///< (lane, n, group) T^2, null for ones; those of centre and padding
+                          ///< are not read
   const double* columns;  ///< (terms) factors of the columns of the moment matrix
   const int* powers;      ///< (terms) of R in the same
-  double* scratch;        ///< at a cache line, lanes * n * (terms + 1) numbers
+  double* scratch;        ///< at a cache line, lanes * n numbers
   double* one;            ///< (lane, group) the condition in the 1-norm
   double* maximum;        ///< (lane, group) the condition in the maximum norm
   unsigned* done;         ///< (group) bits of the lanes that were served

@@ -12,20 +12,59 @@ namespace {
 /// The condition up to which eleven digits and more are left without refinement.
 constexpr double largest_unrefined = 1e3;
 
+/// A piece of results that waits to be written past the caches: right after its making, its parts
+/// have not reached the first-level cache, and reading them would stall.
+struct Piece {
+  const double* from = nullptr;
+  double* to = nullptr;
+  long count = 0;
+
+  void write() {
+    stream_copy(from, count, to);
+    count = 0;
+  }
+};
+
+/// Derivatives whose weights are found together: their solutions share each node's monomials.
+template <int Terms>
+inline constexpr int derivatives_at_once = Terms <= 5 ? 5 : (Terms <= 9 ? 3 : 1);
+
+/// Places of the entries of a symmetric matrix in its lower triangle.
+template <int Size>
+struct SymmetricPlaces {
+  int of[Size][Size] = {};
+
+  constexpr SymmetricPlaces() {
+    for (int i = 0; i < Size; ++i) {
+      for (int j = 0; j < Size; ++j) of[i][j] = i > j ? triangle(i, j) : triangle(j, i);
+    }
+  }
+};
+template <int Size>
+inline constexpr SymmetricPlaces<Size> symmetric_places{};
+
 /// One group of anchors on its way.
 template <int Dim, int Order>
 class Group {
  public:
   static constexpr int terms = monomials_up_to<Dim>(Order);
 
-  Group(const TaylorTask& task, int first)
-      : task_(task), table_(task.gathered.table), size_(table_.size), first_(first) {
+  Group(const TaylorTask& task, int first, Piece& waiting)
+      : task_(task),
+        table_(task.gathered.table),
+        waiting_(waiting),
+        size_(table_.size),
+        count_(task.derivatives.count),
+        first_(first) {
     const long place = first / lanes;
     z_ = reinterpret_cast<const Pack*>(task.gathered.z) + place * size_ * Dim;
-    squared_ = reinterpret_cast<const Pack*>(task.squared) + place * size_;
     radius_ = load(task.gathered.radius + first);
-    weighted_ = reinterpret_cast<Pack*>(task.scratch);
-    rows_ = weighted_ + static_cast<long>(size_) * terms;
+    w_ = reinterpret_cast<Pack*>(task.scratch);
+    rows_ = w_ + size_;
+    piece_ = rows_ + static_cast<long>(size_) * count_;
+    right_sides_ = piece_ + static_cast<long>(size_) * count_;
+    solutions_ = right_sides_ + static_cast<long>(terms) * count_;
+    mask_weights(table_, first, squares_of(task.squared, place * size_), w_);
   }
 
   /// Bits of the lanes whose weights were written.
@@ -57,11 +96,15 @@ class Group {
   Pack radius_;
   const TaylorTask& task_;
   const StencilTable& table_;
+  Piece& waiting_;
   const Pack* z_;
-  const Pack* squared_;
-  Pack* weighted_;  ///< (terms, n) T^2 times the monomials
-  Pack* rows_;      ///< (D, n) weights
+  Pack* w_;            ///< (n) T^2, 0 at the centre and in padding
+  Pack* rows_;         ///< (D, n) weights
+  Pack* piece_;        ///< the same, lane after lane
+  Pack* right_sides_;  ///< (terms, D)
+  Pack* solutions_;    ///< (terms, D)
   int size_;
+  int count_;  ///< D
   int first_;
   unsigned delicate_ = 0;  ///< lanes whose solutions are refined
 
@@ -75,10 +118,8 @@ class Group {
 
   /// Bits of the lanes whose moment matrices are well conditioned.
   unsigned factorise() {
-    Pack* const weights = rows_;  // free until the solutions are known
-    mask_weights(table_, first_, squared_, weights);
     Pack moments[terms * (terms + 1) / 2];
-    sum_moments<Dim, Order>(z_, weights, size_, weighted_, moments);
+    sum_moments<Dim, Order>(z_, w_, size_, moments);
     const Pack norm = norm_of_symmetric<terms>(moments);
     const unsigned good = factorise_ldlt<terms>(moments, task_.least_pivot);
     invert_ldlt<terms>(moments, inverse_);
@@ -93,13 +134,11 @@ class Group {
     for (int q = 1; q <= highest_order; ++q) order_factor_[q] = order_factor_[q - 1] * inverse;
   }
 
-  Pack inverse_entry(int i, int j) const {
-    return inverse_[i > j ? triangle(i, j) : triangle(j, i)];
-  }
+  Pack inverse_entry(int i, int j) const { return inverse_[symmetric_places<terms>.of[i][j]]; }
 
-  /// The monomials, the constant first, at the p-th point of each lane, relative to the anchor and
-  /// over R. Lanes without one get their last.
-  void evaluate_at(long p, Pack* monomials) const {
+  /// The p-th point of each lane, relative to the anchor and over R. Lanes without one get their
+  /// last.
+  void find_point(long p, Pack* at) const {
     const double* place[lanes];
     const double* origin[lanes];
     for (int lane = 0; lane < lanes; ++lane) {
@@ -114,75 +153,119 @@ class Group {
                     static_cast<long>(task_.points.ids[list + (p < count ? p : count - 1)]) * Dim;
     }
     Pack from[Dim];
-    Pack at[Dim];
     load_nodes<Dim>(place, at);
     load_nodes<Dim>(origin, from);
     for (int c = 0; c < Dim; ++c) at[c] = (at[c] - from[c]) * order_factor_[1];
-    monomials[0] = all(1);
-    evaluate_monomials<Dim, Order>(at, monomials + 1);
   }
 
-  /// A derivative of all monomials.
-  void differentiate(int d, const Pack* monomials, Pack* result) const {
-    const double* const factors = task_.derivatives.factors + static_cast<long>(d) * terms;
-    const int* const powers = task_.derivatives.powers + static_cast<long>(d) * terms;
-    for (int a = 0; a < terms; ++a) {
-      result[a] = factors[a] == 0 ? all(0) : all(factors[a]) * monomials[powers[a] + 1];
+  /// Fills right-hand sides and solutions.
+  void solve(const Pack* at) {
+    Pack farthest = all(0);
+    for (int c = 0; c < Dim; ++c) farthest = max(farthest, abs(at[c]));
+    if (less(all(0), farthest) == 0) return solve_at_anchor();
+    Pack monomials[terms + 1];
+    monomials[0] = all(1);
+    evaluate_monomials<Dim, Order>(at, monomials + 1);
+    for (int d = 0; d < count_; ++d) {
+      const double* const factors = task_.derivatives.factors + static_cast<long>(d) * terms;
+      const int* const powers = task_.derivatives.powers + static_cast<long>(d) * terms;
+      const Pack scale = order_factor_[task_.derivatives.order[d]];
+      Pack* const right_side = right_sides_ + static_cast<long>(d) * terms;
+      for (int a = 0; a < terms; ++a) {
+        right_side[a] =
+            factors[a] == 0 ? all(0) : all(factors[a]) * monomials[powers[a] + 1] * scale;
+      }
+      by_inverse(right_side, solutions_ + static_cast<long>(d) * terms);
     }
   }
 
-  /// The inverse times a right-hand side, most of which is zero at an anchor.
+  /// The same where all but one of the terms of a derivative vanish.
+  void solve_at_anchor() {
+    for (int d = 0; d < count_; ++d) {
+      Pack* const right_side = right_sides_ + static_cast<long>(d) * terms;
+      Pack* const solution = solutions_ + static_cast<long>(d) * terms;
+      const int own = task_.derivatives.own[d];
+      for (int a = 0; a < terms; ++a) right_side[a] = all(0);
+      for (int a = 0; own < 0 && a < terms; ++a) solution[a] = all(0);
+      if (own < 0) continue;
+      right_side[own] = all(task_.derivatives.factors[static_cast<long>(d) * terms + own]) *
+                        order_factor_[task_.derivatives.order[d]];
+#pragma GCC unroll 64
+      for (int a = 0; a < terms; ++a) {
+        solution[a] = all(0) + inverse_entry(a, own) * right_side[own];
+      }
+    }
+  }
+
+  /// The inverse times a right-hand side.
   void by_inverse(const Pack* right_side, Pack* solution) const {
     for (int i = 0; i < terms; ++i) solution[i] = all(0);
     for (int a = 0; a < terms; ++a) {
-      if (less(all(0), abs(right_side[a])) == 0) continue;
       for (int i = 0; i < terms; ++i) {
         solution[i] = solution[i] + inverse_entry(i, a) * right_side[a];
       }
     }
   }
 
-  /// T^2 times the Taylor terms of node j, combined.
-  [[gnu::always_inline]] Pack combine(int j, const Pack* solution) const {
-    const Pack* const row = weighted_ + static_cast<long>(j) * terms;
-    Pack weight = row[0] * solution[0];
+  Pack& weight(int d, int j) { return rows_[static_cast<long>(j) * count_ + d]; }
+  Pack at_centre(int d) const { return task_.derivatives.order[d] == 0 ? all(1) : all(0); }
+
+  /// Fills the rows of some derivatives from their solutions.
+  template <int Count>
+  void weigh(int first) {
+    Pack solution[Count][terms];
+    Pack centre[Count];
+    for (int d = 0; d < Count; ++d) {
+      centre[d] = at_centre(first + d);
+      for (int a = 0; a < terms; ++a) {
+        solution[d][a] = solutions_[static_cast<long>(first + d) * terms + a];
+      }
+    }
+    for (int j = 1; j < size_; ++j) {
+      Pack basis[terms];
+      evaluate_monomials<Dim, Order>(z_ + static_cast<long>(j) * Dim, basis);
+      const Pack w = w_[j];
+#pragma GCC unroll 8
+      for (int d = 0; d < Count; ++d) {
+        Pack sum = basis[0] * solution[d][0];
 #pragma GCC unroll 64
-    for (int a = 1; a < terms; ++a) weight = weight + row[a] * solution[a];
-    return weight;
+        for (int a = 1; a < terms; ++a) sum = sum + basis[a] * solution[d][a];
+        sum = sum * w;
+        weight(first + d, j) = sum;
+        centre[d] = centre[d] - sum;
+      }
+    }
+    for (int d = 0; d < Count; ++d) rows_[first + d] = centre[d];
   }
 
-  Pack& weight(int d, int j) { return rows_[static_cast<long>(j) * task_.derivatives.count + d]; }
-
-  /// Fills a derivative's row of weights from its solution.
-  void weigh(int d, const Pack* solution) {
-    Pack z[terms];
-#pragma GCC unroll 64
-    for (int a = 0; a < terms; ++a) z[a] = solution[a];
-    Pack centre = task_.derivatives.order[d] == 0 ? all(1) : all(0);
-    for (int j = 1; j < size_; ++j) {
-      const Pack found = combine(j, z);
-      weight(d, j) = found;
-      centre = centre - found;
+  /// The same for as many of them as are left.
+  template <int Count = derivatives_at_once<terms>>
+  void weigh_some(int first, int count) {
+    if constexpr (Count > 1) {
+      if (count < Count) return weigh_some<Count - 1>(first, count);
     }
-    rows_[d] = centre;
+    weigh<Count>(first);
   }
 
   /// Corrects a row by what it leaves of the right-hand side; neither the rounding of the moment
   /// matrix nor that of the row counts any longer. Source: Bjorck 1987 (corrected seminormal
   /// equations).
-  void refine(int d, const Pack* right_side) {
+  void refine(int d) {
     Pack residual[terms];
     Pack correction[terms];
-    for (int a = 0; a < terms; ++a) residual[a] = right_side[a];
+    Pack basis[terms];
+    for (int a = 0; a < terms; ++a) residual[a] = right_sides_[static_cast<long>(d) * terms + a];
     for (int j = 1; j < size_; ++j) {
-      Pack basis[terms];
       evaluate_monomials<Dim, Order>(z_ + static_cast<long>(j) * Dim, basis);
       for (int a = 0; a < terms; ++a) residual[a] = residual[a] - basis[a] * weight(d, j);
     }
     by_inverse(residual, correction);
-    Pack centre = task_.derivatives.order[d] == 0 ? all(1) : all(0);
+    Pack centre = at_centre(d);
     for (int j = 1; j < size_; ++j) {
-      weight(d, j) = weight(d, j) + choose(delicate_, combine(j, correction), all(0));
+      evaluate_monomials<Dim, Order>(z_ + static_cast<long>(j) * Dim, basis);
+      Pack sum = basis[0] * correction[0];
+      for (int a = 1; a < terms; ++a) sum = sum + basis[a] * correction[a];
+      weight(d, j) = weight(d, j) + choose(delicate_, sum * w_[j], all(0));
       centre = centre - weight(d, j);
     }
     rows_[d] = centre;
@@ -191,37 +274,48 @@ class Group {
   /// Writes the weights of the p-th point of some lanes; returns the lanes in which they are not
   /// finite.
   unsigned serve(long p, unsigned served) {
-    Pack monomials[terms + 1];
-    evaluate_at(p, monomials);
-    Pack check = all(0);
-    for (int d = 0; d < task_.derivatives.count; ++d) {
-      Pack right_side[terms];
-      Pack solution[terms];
-      differentiate(d, monomials, right_side);
-      const Pack scale = order_factor_[task_.derivatives.order[d]];
-      for (int i = 0; i < terms; ++i) right_side[i] = right_side[i] * scale;
-      by_inverse(right_side, solution);
-      weigh(d, solution);
-      if (delicate_ != 0) refine(d, right_side);
-      check = check + rows_[d] * all(0);  // not a number if any weight is not finite
-    }
+    constexpr int most = derivatives_at_once<terms>;
+    Pack at[Dim];
+    find_point(p, at);
+    solve(at);
+    for (int d = 0; d < count_; d += most) weigh_some(d, count_ - d < most ? count_ - d : most);
+    for (int d = 0; delicate_ != 0 && d < count_; ++d) refine(d);
+    Pack check = all(0);  // not a number if any weight is not finite
+    for (int d = 0; d < count_; ++d) check = check + rows_[d] * all(0);
     const unsigned finite = less(check, all(1));
     write(p, served & finite);
     return served & ~finite;
   }
 
+  /// True when the lanes' rows lie one after the other.
+  static bool is_one_piece(unsigned served, int least, const int* entries, double* const* to) {
+    bool follows = served == every_lane;
+    for (int lane = 0; follows && lane < lanes; ++lane) {
+      follows = entries[lane] == least && to[lane] == to[0] + static_cast<long>(lane) * least;
+    }
+    return follows;
+  }
+
   void write(long p, unsigned served) {
-    const int count = task_.derivatives.count;
     double* to[lanes] = {};
     int entries[lanes] = {};
-    int least = size_ * count;  // entries that all rows have
+    int least = size_ * count_;  // entries that all rows have
     for (int lane = 0; lane < lanes; ++lane) {
       if ((served >> lane & 1U) == 0) continue;
       const int point = task_.points.ids[task_.points.offsets[anchor(lane)] + p];
       const std::int64_t* const rows = task_.points.rows + point;
-      to[lane] = task_.points.values + rows[0] * count;
-      entries[lane] = static_cast<int>(rows[1] - rows[0]) * count;
+      to[lane] = task_.points.values + rows[0] * count_;
+      entries[lane] = static_cast<int>(rows[1] - rows[0]) * count_;
       least = entries[lane] < least ? entries[lane] : least;
+    }
+    if (task_.output == Output::streamed && is_one_piece(served, least, entries, to)) {
+      waiting_.write();
+      double* const piece = reinterpret_cast<double*>(piece_);
+      double* parts[lanes];
+      for (int lane = 0; lane < lanes; ++lane) parts[lane] = piece + static_cast<long>(lane) * least;
+      scatter_lanes(rows_, least, parts, every_lane);
+      waiting_ = {piece, to[0], static_cast<long>(lanes) * least};
+      return;
     }
     scatter_lanes(rows_, least, to, served);
     for (int lane = 0; lane < lanes; ++lane) {
@@ -234,9 +328,12 @@ class Group {
 
 template <int Dim, int Order>
 void fit(const TaylorTask& task) {
+  Piece waiting;
   for (int first = 0; first < task.gathered.table.count; first += lanes) {
-    task.done[first / lanes] = Group<Dim, Order>(task, first).run();
+    task.done[first / lanes] = Group<Dim, Order>(task, first, waiting).run();
   }
+  waiting.write();
+  end_streams();
 }
 
 template <int Dim>

@@ -10,6 +10,7 @@ struct DerivativeTable {
   const int* order;       ///< (D) of differentiation
   const double* factors;  ///< (terms, D) 0 where the derivative vanishes
   const int* powers;      ///< (terms, D) place of the monomial that is left; -1 for the constant
+  const int* own;         ///< (D) the monomial that leaves a constant, -1 for the value itself
 };
 
 /// Where derivatives are evaluated and where their weights go.
@@ -21,15 +22,23 @@ struct PointTable {
   double* values;               ///< (D * entries) the weights
 };
 
+/// How results are stored.
+enum class Output {
+  cached,
+  streamed  ///< past the caches, where they lie in one piece
+};
+
 /// Taylor fits whose nodes have been gathered: the centre comes first in each stencil.
 struct TaylorTask {
   GatherTask gathered;
   int order;               ///< highest degree of the monomials
   double least_pivot;      ///< over its diagonal entry
   double condition_limit;  ///< in the 1-norm of the moment matrix
-  const double* squared;   ///< (lane, n, group) T^2; those of centre and padding are not read
+  const double* squared;  ///< (lane, n, group) T^2, null for ones; those of centre and padding
+                          ///< are not read
   DerivativeTable derivatives;
   PointTable points;
+  Output output;
   double* scratch;  ///< at a cache line, taylor_scratch numbers
   unsigned* done;   ///< (group) bits of the lanes whose weights were written
 };
@@ -37,7 +46,7 @@ struct TaylorTask {
 /// Numbers of scratch that a Taylor task takes: n nodes at most, m monomials, D derivatives.
 inline std::size_t taylor_scratch(std::size_t n, std::size_t m, std::size_t derivatives,
                                   std::size_t lanes) {
-  return lanes * n * (m + derivatives);
+  return lanes * (n + 2 * n * derivatives + 2 * m * derivatives);
 }
 
 /// Factorises the moment matrices and writes the weights of all points of anchors whose systems are
