@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
-#include "problems/core/cell_rings.hpp"
-#include "problems/core/cut_cells.hpp"
 #include "problems/core/random.hpp"
+#include "problems/core/simd/cell_rings.hpp"
+#include "problems/core/simd/cut_cells.hpp"
 #include "problems/core/voronoi.hpp"
 #include "tests/simd_paths.hpp"
 #include "tests/voronoi_oracle.hpp"

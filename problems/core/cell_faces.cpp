@@ -97,10 +97,11 @@ CellFaces<Dim> cell_faces(const PointCloud<Dim>& cloud, const Domain<Dim>& domai
       for (int i = 0; i < block.size(); ++i) {
         const int node = block.nodes[i];
         const std::size_t before = points.size();
-        const CellState state = add_settled(cloud, maker, node, block.neighbours(i), points);
-        if (state != CellState::settled) points.resize(before);
+        const CellOutcome outcome =
+            add_settled(cloud, maker, node, block.neighbours(i), block.reaches[i], points);
+        if (outcome.state != CellState::settled) points.resize(before);
         store.note(node, thread, before, points.size());
-        block.is_open[i] = state == CellState::open ? 1 : 0;
+        block.wanted[i] = outcome.state == CellState::open ? 2 * outcome.farthest : 0;
       }
     };
   });

@@ -72,8 +72,7 @@ TangentPlane<Dim> tangent_plane(const Domain<Dim>& domain, const Point<Dim>& x, 
 }  // namespace
 
 template <int Dim>
-CellState CellMaker<Dim>::make(int node, std::span<const int> neighbours) {
-  const double reach = reach_of(cloud_, node, neighbours);
+CellState CellMaker<Dim>::make(int node, std::span<const int> neighbours, double reach) {
   if (static_cast<int>(neighbours.size()) < cloud_.size()) {
     clip(node, neighbours, box_for(reach));
     return 4 * farthest_squared(cell_) <= reach * reach ? CellState::settled : CellState::open;

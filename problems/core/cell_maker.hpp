@@ -32,8 +32,9 @@ class CellMaker {
       : cloud_(cloud), domain_(domain) {}
 
   /// Makes the cell of a node, clipped to the domain, from its nearest nodes: exactly by flat
-  /// sides, by tangent planes along curved ones. Neighbours are sorted by distance.
-  CellState make(int node, std::span<const int> neighbours);
+  /// sides, by tangent planes along curved ones. Neighbours are sorted by distance, and all nodes
+  /// up to `reach` are among them.
+  CellState make(int node, std::span<const int> neighbours, double reach);
   /// Makes the cell without the domain, within a box around the node.
   void make_unclipped(int node, std::span<const int> neighbours, double half_width);
   /// Clips the cell of a node last made by the domain, as `make` does.
@@ -58,12 +59,6 @@ class CellMaker {
   void clip_by_marks(int node);
   void clip_by_domain(const Point<Dim>& centre);
 };
-
-/// Distance from a node to the last of its neighbours.
-template <int Dim>
-double reach_of(const PointCloud<Dim>& cloud, int node, std::span<const int> neighbours) {
-  return (cloud.nodes.col(neighbours.back()) - cloud.nodes.col(node)).norm();
-}
 
 /// Half width of the box in which to make a cell whose neighbours reach this far. Nodes beyond
 /// reach cannot cut what lies within half of it, and a cell that touches this box does not; so the

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "methods/core/points.hpp"
-#include "problems/core/cut_cells.hpp"
+#include "problems/core/simd/cut_cells.hpp"
 
 namespace strongpoint {
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "problems/core/cell_maker.hpp"
@@ -23,29 +24,37 @@ struct FaceSetting {
   FaceSetting(const PointCloud<Dim>& its_cloud, const Domain<Dim>& its_domain, int its_gauss);
 };
 
-/// Appends the points of a node's cell once its neighbours settle it. A maker is called as
-/// `maker.add(node, neighbours, half_width, points)`, makes the cell within a box and returns how
-/// far the cell reaches; `maker.check(node)` throws CaseError when it is not sound.
+/// What became of a cell, and how far it reaches.
+struct CellOutcome {
+  CellState state;
+  double farthest;
+};
+
+/// Appends the points of a node's cell once its neighbours, all nodes up to `reach`, settle it. A
+/// maker is called as `maker.add(node, neighbours, half_width, points)`, makes the cell within a
+/// box and returns how far the cell reaches; `maker.check(node)` throws CaseError when it is not
+/// sound.
 template <int Dim, class Maker>
-CellState add_settled(const PointCloud<Dim>& cloud, Maker& maker, int node,
-                      std::span<const int> neighbours, std::vector<FacePoint<Dim>>& points) {
-  const double reach = reach_of(cloud, node, neighbours);
+CellOutcome add_settled(const PointCloud<Dim>& cloud, Maker& maker, int node,
+                        std::span<const int> neighbours, double reach,
+                        std::vector<FacePoint<Dim>>& points) {
   if (static_cast<int>(neighbours.size()) < cloud.size()) {
     const double farthest = maker.add(node, neighbours, box_for(reach), points);
-    if (2 * farthest > reach) return CellState::open;
+    if (2 * farthest > reach) return {CellState::open, farthest};
     maker.check(node);
-    return CellState::settled;
+    return {CellState::settled, farthest};
   }
   // With all nodes known the domain alone bounds the cell, and the box must hold it.
   for (double half = 2 * reach; std::isfinite(half * half) && half > 0; half *= 4) {
     const std::size_t before = points.size();
-    if (maker.add(node, neighbours, half, points) < half) {
+    const double farthest = maker.add(node, neighbours, half, points);
+    if (farthest < half) {
       maker.check(node);
-      return CellState::settled;
+      return {CellState::settled, farthest};
     }
     points.resize(before);
   }
-  return CellState::unbounded;
+  return {CellState::unbounded, std::numeric_limits<double>::infinity()};
 }
 
 /// Makes the faces of cells, one after the other in the same memory.

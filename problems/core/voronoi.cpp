@@ -11,9 +11,10 @@
 
 #include "methods/core/error.hpp"
 #include "problems/core/cell_maker.hpp"
-#include "problems/core/cell_rings.hpp"
 #include "problems/core/cell_visits.hpp"
-#include "problems/core/cut_cells.hpp"
+#include "problems/core/simd/cell_rings.hpp"
+#include "problems/core/simd/cut_cells.hpp"
+#include "problems/core/simd/walk_cells.hpp"
 
 namespace strongpoint {
 namespace {
@@ -42,15 +43,23 @@ class FreeCellMaker<2> {
  public:
   explicit FreeCellMaker(const PointCloud<2>& cloud) : cloud_(cloud) {}
   void make(const CellBlock& block, FreeCells& cells) const {
-    const auto size = static_cast<int>(block.neighbours(0).size());
-    if (size < 3 || size > most_ring_neighbours) {
-      cells.farthest_squared.fill(std::numeric_limits<double>::infinity());
-      return;
+    for (int i = 0, together = 1; i < block.size(); i += together) {
+      // Cells with as many neighbours as each other, all of them in the first round, go together.
+      const std::size_t size = block.neighbours(i).size();
+      together = 1;
+      while (i + together < block.size() && block.neighbours(i + together).size() == size) {
+        ++together;
+      }
+      if (size < 3 || size > most_ring_neighbours) {
+        std::fill_n(cells.farthest_squared.data() + i, together,
+                    std::numeric_limits<double>::infinity());
+        continue;
+      }
+      find_cell_rings({cloud_.nodes.data(), block.nodes.data() + i,
+                       block.stencils.offsets.data() + block.first + i, block.stencils.nodes.data(),
+                       together, static_cast<int>(size), cells.measure.data() + i,
+                       cells.farthest_squared.data() + i, nullptr, nullptr, nullptr});
     }
-    find_cell_rings({cloud_.nodes.data(), block.nodes.data(),
-                     block.stencils.offsets.data() + block.first, block.stencils.nodes.data(),
-                     block.size(), size, cells.measure.data(), cells.farthest_squared.data(),
-                     nullptr, nullptr, nullptr});
   }
 
  private:
@@ -63,19 +72,52 @@ class FreeCellMaker<3> {
   explicit FreeCellMaker(const PointCloud<3>& cloud)
       : cloud_(cloud), work_(std::make_unique<CutCell>()) {}
   void make(const CellBlock& block, FreeCells& cells) const {
-    for (int i = 0; i < block.size(); ++i) {
-      half_widths_[i] = box_for(reach_of(cloud_, block.nodes[i], block.neighbours(i)));
+    // On a lattice walks fail where many edges meet: a few cells tell whether to go on with them.
+    constexpr int trial = 16;
+    const int tried = std::min(trial, block.size());
+    if (2 * walk(block, 0, tried, cells) <= tried) {
+      walk(block, tried, block.size(), cells);
+    } else {
+      for (int i = tried; i < block.size(); ++i) cut(block, i, cells);
     }
-    cut_cells({cloud_.nodes.data(), block.nodes.data(), block.stencils.offsets.data() + block.first,
-               block.stencils.nodes.data(), block.size(), nullptr, 0, half_widths_.data(),
-               work_.get(), cells.measure.data(), cells.farthest_squared.data(), states_.data()});
   }
 
  private:
   const PointCloud<3>& cloud_;
   std::unique_ptr<CutCell> work_;
-  mutable std::array<double, cell_block_size> half_widths_;
-  mutable std::array<CutState, cell_block_size> states_;
+  mutable std::array<WalkState, cell_block_size> states_;
+
+  /// Walks around the cells from `first` on and cuts those where it fails; returns their number.
+  int walk(const CellBlock& block, int first, int end, FreeCells& cells) const {
+    int failed = 0;
+    for (int i = first, together = 1; i < end; i += together) {
+      const std::size_t size = block.neighbours(i).size();
+      together = 1;
+      while (i + together < end && block.neighbours(i + together).size() == size) ++together;
+      if (size < 5 || size > most_walk_neighbours) {
+        for (int j = i; j < i + together; ++j) cut(block, j, cells);
+        continue;
+      }
+      walk_cells({cloud_.nodes.data(), block.nodes.data() + i,
+                  block.stencils.offsets.data() + block.first + i, block.stencils.nodes.data(),
+                  together, static_cast<int>(size), cells.measure.data() + i,
+                  cells.farthest_squared.data() + i, states_.data() + i});
+      for (int j = i; j < i + together; ++j) {
+        if (states_[j] != WalkState::broken) continue;
+        cut(block, j, cells);
+        ++failed;
+      }
+    }
+    return failed;
+  }
+  void cut(const CellBlock& block, int i, FreeCells& cells) const {
+    const double half_width = box_for(block.reaches[i]);
+    CutState state = CutState::broken;
+    cut_cells({cloud_.nodes.data(), block.nodes.data() + i,
+               block.stencils.offsets.data() + block.first + i, block.stencils.nodes.data(), 1,
+               nullptr, 0, &half_width, work_.get(), cells.measure.data() + i,
+               cells.farthest_squared.data() + i, &state});
+  }
 };
 
 /// Measures cells, those inside by themselves and the others clipped by the domain.
@@ -91,17 +133,19 @@ class MeasureWorker {
       const int node = block.nodes[i];
       const std::span<const int> neighbours = block.neighbours(i);
       const double depth = std::max(0.0, -domain_.distance(cloud_.nodes.col(node)));
-      const double reach = reach_of(cloud_, node, neighbours);
-      const bool is_settled = 4 * cells_.farthest_squared[i] <= reach * reach;
-      if (depth * depth > cells_.farthest_squared[i] &&
+      const double reach = block.reaches[i];
+      const double farthest_squared = cells_.farthest_squared[i];
+      const bool is_settled = 4 * farthest_squared <= reach * reach;
+      if (depth * depth > farthest_squared &&
           (is_settled || static_cast<int>(neighbours.size()) < cloud_.size())) {
         measures_[node] = cells_.measure[i];
-        block.is_open[i] = is_settled ? 0 : 1;
+        block.wanted[i] = is_settled ? 0 : 2 * std::sqrt(farthest_squared);
       } else {
-        const CellState state = maker_.make(node, neighbours);
+        const CellState state = maker_.make(node, neighbours, reach);
+        const bool is_open = state == CellState::open;
         measures_[node] = state == CellState::unbounded ? std::numeric_limits<double>::infinity()
                                                         : maker_.cell().measure();
-        block.is_open[i] = state == CellState::open ? 1 : 0;
+        block.wanted[i] = is_open ? 2 * std::sqrt(strongpoint::farthest_squared(maker_.cell())) : 0;
       }
     }
   }

@@ -1,4 +1,4 @@
-#include "problems/core/cell_rings.hpp"
+#include "problems/core/simd/cell_rings.hpp"
 
 #include "methods/core/simd/pack.hpp"
 

@@ -1,4 +1,4 @@
-#include "problems/core/cut_cells.hpp"
+#include "problems/core/simd/cut_cells.hpp"
 
 #include "methods/core/simd/pack.hpp"
 
