@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "problems/core/distance_gradient.hpp"
 
@@ -69,6 +70,61 @@ TangentPlane<Dim> tangent_plane(const Domain<Dim>& domain, const Point<Dim>& x, 
   return plane;
 }
 
+/// A cell kept as its vertices and faces, to be clipped.
+template <int Dim>
+struct WholeCell {
+  ConvexCell<Dim>& cell;
+
+  double farthest_squared() const { return strongpoint::farthest_squared(cell); }
+  int size() const { return static_cast<int>(cell.vertices().size()); }
+  const Point<Dim>& vertex(int v) const { return cell.vertices()[v]; }
+  bool clip(const Point<Dim>& normal, double offset, int label) {
+    return cell.clip(normal, offset, label) == Clip::cut;
+  }
+};
+
+/// A cell kept as the kernel cuts it.
+struct KernelCell {
+  CutCell& cell;
+  CutState state = CutState::whole;
+
+  double farthest_squared() const {
+    return *std::max_element(cell.squared, cell.squared + cell.vertices);
+  }
+  int size() const { return cell.vertices; }
+  Point<3> vertex(int v) const { return {cell.x[v], cell.y[v], cell.z[v]}; }
+  bool clip(const Point<3>& normal, double offset, int label) {
+    const int faces = cell.faces;
+    cut_further({&cell, {{normal[0], normal[1], normal[2]}, label}, offset, &state});
+    return state == CutState::whole && cell.faces > faces;
+  }
+};
+
+/// Clips a cell by tangent planes where it leaves the domain most, until it does not.
+template <int Dim, class Cell>
+void clip_cell_by_domain(const Domain<Dim>& domain, const Point<Dim>& centre, Cell& cell) {
+  double scale = std::sqrt(cell.farthest_squared());
+  if (-domain.distance(centre) > scale) return;
+  for (int round = 0; round < domain_rounds; ++round) {
+    const double tolerance = overshoot_tolerance * scale;
+    double overshoot = tolerance;
+    Point<Dim> worst = Point<Dim>::Zero();
+    for (int v = 0; v < cell.size(); ++v) {
+      const Point<Dim> x = cell.vertex(v);
+      const double distance = domain.distance(centre + x);
+      if (!(distance > overshoot)) continue;
+      overshoot = distance;
+      worst = x;
+    }
+    if (overshoot == tolerance) return;
+    const TangentPlane<Dim> plane = tangent_plane<Dim>(domain, centre + worst, scale);
+    const Point<Dim>& normal = plane.side.normal;
+    const double offset = normal.dot(plane.foot - centre);
+    if (!cell.clip(normal, offset, side_label(plane.side.side))) return;
+    scale = std::sqrt(cell.farthest_squared());
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -111,6 +167,19 @@ template <int Dim>
 bool CellMaker<Dim>::cut(int node, std::span<const int> neighbours, double half_width,
                          std::span<const BoundaryMark<Dim>> marks) {
   if constexpr (Dim == 3) {
+    if (!cut_fast(node, neighbours, half_width, marks)) return false;
+    cell_.assign(work_);
+    return true;
+  } else {
+    return false;
+  }
+}
+
+/// The same, leaving the cell where it was cut.
+template <int Dim>
+bool CellMaker<Dim>::cut_fast(int node, std::span<const int> neighbours, double half_width,
+                              std::span<const BoundaryMark<Dim>> marks) {
+  if constexpr (Dim == 3) {
     side_planes_.clear();
     for (const BoundaryMark<3>& mark : marks) {
       side_planes_.push_back(
@@ -122,9 +191,7 @@ bool CellMaker<Dim>::cut(int node, std::span<const int> neighbours, double half_
     cut_cells({cloud_.nodes.data(), &node, offsets.data(), neighbours.data(), 1,
                side_planes_.data(), static_cast<int>(side_planes_.size()), &half_width, &work_,
                nullptr, &farthest, &state});
-    if (state == CutState::broken) return false;
-    cell_.assign(work_);
-    return true;
+    return state == CutState::whole;
   } else {
     return false;
   }
@@ -159,25 +226,38 @@ void CellMaker<Dim>::clip_by_neighbours(int node, std::span<const int> neighbour
 
 template <int Dim>
 void CellMaker<Dim>::clip_by_domain(const Point<Dim>& centre) {
-  double scale = std::sqrt(farthest_squared(cell_));
-  if (-domain_.distance(centre) > scale) return;
-  for (int round = 0; round < domain_rounds; ++round) {
-    const double tolerance = overshoot_tolerance * scale;
-    double overshoot = tolerance;
-    Point<Dim> worst = Point<Dim>::Zero();
-    for (const Point<Dim>& v : cell_.vertices()) {
-      const double distance = domain_.distance(centre + v);
-      if (!(distance > overshoot)) continue;
-      overshoot = distance;
-      worst = v;
-    }
-    if (overshoot == tolerance) return;
-    const TangentPlane<Dim> plane = tangent_plane<Dim>(domain_, centre + worst, scale);
-    const Point<Dim>& normal = plane.side.normal;
-    const Clip outcome =
-        cell_.clip(normal, normal.dot(plane.foot - centre), side_label(plane.side.side));
-    if (outcome != Clip::cut) return;
-    scale = std::sqrt(farthest_squared(cell_));
+  WholeCell<Dim> cell{cell_};
+  clip_cell_by_domain<Dim>(domain_, centre, cell);
+}
+
+template <int Dim>
+CellExtent CellMaker<Dim>::measure(int node, std::span<const int> neighbours, double reach) {
+  CellExtent extent{CellState::open, 0, 0};
+  if (static_cast<int>(neighbours.size()) < cloud_.size() &&
+      measure_fast(node, neighbours, box_for(reach), extent)) {
+    if (4 * extent.farthest_squared <= reach * reach) extent.state = CellState::settled;
+    return extent;
+  }
+  extent.state = make(node, neighbours, reach);
+  extent.measure = extent.state == CellState::unbounded ? std::numeric_limits<double>::infinity()
+                                                        : cell_.measure();
+  extent.farthest_squared = farthest_squared(cell_);
+  return extent;
+}
+
+/// In space: makes and measures the cell where it is cut, false where that fails.
+template <int Dim>
+bool CellMaker<Dim>::measure_fast(int node, std::span<const int> neighbours, double half_width,
+                                  CellExtent& extent) {
+  if constexpr (Dim == 3) {
+    if (!cut_fast(node, neighbours, half_width, cloud_.marks_of(node))) return false;
+    KernelCell cell{work_};
+    clip_cell_by_domain<3>(domain_, cloud_.nodes.col(node), cell);
+    if (cell.state == CutState::broken) return false;
+    measure_cell({&work_, &extent.measure, &extent.farthest_squared});
+    return true;
+  } else {
+    return false;
   }
 }
 

@@ -16,6 +16,13 @@ enum class CellState {
   unbounded  ///< neither nodes nor domain bound it
 };
 
+/// A cell's state and size.
+struct CellExtent {
+  CellState state;
+  double measure;           ///< infinite when it is unbounded
+  double farthest_squared;  ///< of the largest distance of a vertex from the node
+};
+
 /// Label of a face that a side of the domain made; faces between nodes carry the other node's
 /// number.
 inline constexpr int side_label(int side) { return -2 - side; }
@@ -35,6 +42,8 @@ class CellMaker {
   /// sides, by tangent planes along curved ones. Neighbours are sorted by distance, and all nodes
   /// up to `reach` are among them.
   CellState make(int node, std::span<const int> neighbours, double reach);
+  /// Measures the cell that `make` would make; `cell` is anything afterwards.
+  CellExtent measure(int node, std::span<const int> neighbours, double reach);
   /// Makes the cell without the domain, within a box around the node.
   void make_unclipped(int node, std::span<const int> neighbours, double half_width);
   /// Clips the cell of a node last made by the domain, as `make` does.
@@ -54,10 +63,14 @@ class CellMaker {
 
   bool cut(int node, std::span<const int> neighbours, double half_width,
            std::span<const BoundaryMark<Dim>> marks);
+  bool cut_fast(int node, std::span<const int> neighbours, double half_width,
+                std::span<const BoundaryMark<Dim>> marks);
   void clip(int node, std::span<const int> neighbours, double half_width);
   void clip_by_neighbours(int node, std::span<const int> neighbours);
   void clip_by_marks(int node);
   void clip_by_domain(const Point<Dim>& centre);
+  bool measure_fast(int node, std::span<const int> neighbours, double half_width,
+                    CellExtent& extent);
 };
 
 /// Half width of the box in which to make a cell whose neighbours reach this far. Nodes beyond

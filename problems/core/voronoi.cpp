@@ -74,11 +74,13 @@ class FreeCellMaker<3> {
   void make(const CellBlock& block, FreeCells& cells) const {
     // On a lattice walks fail where many edges meet: a few cells tell whether to go on with them.
     constexpr int trial = 16;
+    constexpr int least_lanes = 8;  // four lanes are as fast as a cut, one is slower
     const int tried = std::min(trial, block.size());
-    if (2 * walk(block, 0, tried, cells) <= tried) {
+    const bool are_many = lanes_of(simd_path()) >= least_lanes;
+    if (are_many && 2 * walk(block, 0, tried, cells) <= tried) {
       walk(block, tried, block.size(), cells);
     } else {
-      for (int i = tried; i < block.size(); ++i) cut(block, i, cells);
+      for (int i = are_many ? tried : 0; i < block.size(); ++i) cut(block, i, cells);
     }
   }
 
@@ -141,11 +143,10 @@ class MeasureWorker {
         measures_[node] = cells_.measure[i];
         block.wanted[i] = is_settled ? 0 : 2 * std::sqrt(farthest_squared);
       } else {
-        const CellState state = maker_.make(node, neighbours, reach);
-        const bool is_open = state == CellState::open;
-        measures_[node] = state == CellState::unbounded ? std::numeric_limits<double>::infinity()
-                                                        : maker_.cell().measure();
-        block.wanted[i] = is_open ? 2 * std::sqrt(strongpoint::farthest_squared(maker_.cell())) : 0;
+        const CellExtent extent = maker_.measure(node, neighbours, reach);
+        measures_[node] = extent.measure;
+        const bool is_open = extent.state == CellState::open;
+        block.wanted[i] = is_open ? 2 * std::sqrt(extent.farthest_squared) : 0;
       }
     }
   }

@@ -271,4 +271,16 @@ void cut_cells(const CutTask& task) {
   }
 }
 
+void cut_further(const FurtherCut& task) {
+  const double* const normal = task.plane.normal;
+  const Plane plane{normal[0], normal[1], normal[2], task.offset, task.cell->tolerance};
+  const bool is_broken = cut(*task.cell, plane, task.plane.label) == Outcome::broken;
+  *task.state = is_broken ? CutState::broken : CutState::whole;
+}
+
+void measure_cell(const ExtentTask& task) {
+  *task.volume = volume(*task.cell);
+  *task.farthest_squared = farthest_squared(*task.cell);
+}
+
 }  // namespace strongpoint::STRONGPOINT_SIMD_PATH

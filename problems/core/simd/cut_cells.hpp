@@ -58,4 +58,25 @@ struct CutTask {
 /// distance until the security radius: no node farther away than twice the farthest vertex can cut.
 STRONGPOINT_SIMD_KERNEL(cut_cells, CutTask);
 
+/// A cut of a cell that is there.
+struct FurtherCut {
+  CutCell* cell;
+  SidePlane plane;  ///< its normal has unit length
+  double offset;    ///< keeps normal.x <= offset
+  CutState* state;  ///< broken where nothing is left, too
+};
+
+/// Cuts a cell once more.
+STRONGPOINT_SIMD_KERNEL(cut_further, FurtherCut);
+
+/// How large a cell is.
+struct ExtentTask {
+  const CutCell* cell;
+  double* volume;
+  double* farthest_squared;  ///< square of the largest distance of a vertex from the origin
+};
+
+/// Measures a cell.
+STRONGPOINT_SIMD_KERNEL(measure_cell, ExtentTask);
+
 }  // namespace strongpoint
