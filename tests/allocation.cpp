@@ -20,8 +20,13 @@ std::atomic<std::int64_t> allocations{0};
 }  // namespace
 }  // namespace strongpoint
 
-// The address sanitiser replaces malloc itself, and a second replacement would break it.
-#ifdef __SANITIZE_ADDRESS__
+// A sanitizer replaces malloc itself, and a second replacement would break it. GCC says so by a
+// macro, clang by a feature.
+#ifndef __has_feature
+#define __has_feature(name) 0  // NOLINT(bugprone-reserved-identifier): clang's own name
+#endif
+#if defined(__SANITIZE_ADDRESS__) || __has_feature(address_sanitizer) || \
+    __has_feature(thread_sanitizer)
 constexpr bool counts_allocations = false;
 #else
 constexpr bool counts_allocations = true;
