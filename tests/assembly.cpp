@@ -4,12 +4,15 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <set>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <omp.h>
 
 #include "methods/core/error.hpp"
 #include "problems/core/assembly_rows.hpp"
+#include "problems/core/column_set.hpp"
 #include "problems/core/elasticity.hpp"
 #include "problems/core/random.hpp"
 
@@ -110,6 +113,67 @@ TEST(Assembly, SortsNodesOfStencilsOfAnySize) {
     for (int i = 1; i < count; ++i) EXPECT_LT(ids[order[i - 1]], ids[order[i]]) << count;
     std::sort(order.begin(), order.begin() + count);
     for (int i = 0; i < count; ++i) EXPECT_EQ(order[i], i) << count;
+  }
+}
+
+TEST(Assembly, ListsColumnsInAscendingOrder) {
+  std::mt19937_64 generator(1);
+  ColumnSet set;
+  for (const int width : {1, 64, 65, 5000, 300'000}) {
+    set.resize(width);
+    for (int round = 0; round < 3; ++round) {  // it is empty after each
+      std::set<std::int64_t> expected;
+      std::int64_t count = 0;
+      for (int i = 0; i < 100; ++i) {
+        const auto column = static_cast<std::int64_t>(width * uniform01(generator));
+        expected.insert(column);
+        count += set.insert(column);
+      }
+      EXPECT_EQ(count, static_cast<std::int64_t>(expected.size()));
+      std::vector<std::int64_t> found;
+      set.drain([&](std::int64_t column) { found.push_back(column); });
+      EXPECT_TRUE(std::equal(found.begin(), found.end(), expected.begin(), expected.end()));
+    }
+  }
+}
+
+/// Two rows a node that read gradients, at pairs of points with one stencil, and bare values.
+EquationList balances(int nodes, const Derivatives<2>& gradients) {
+  EquationList list;
+  EquationWriter<2> write(list, gradients);
+  for (int node = 0; node < nodes; ++node) {
+    for (int i = 0; i < 2; ++i) {
+      for (const int point : {node, node ^ 1, (node + 9) % nodes, node}) {
+        write.at(point);
+        write.add(i, {1, 0}, 1 + 0.125 * node);
+        if (node % 3 > 0) write.add(1 - i, {0, 1}, 0.5);
+        write.add(i, {1, 0}, 0.25);
+      }
+      if (node % 5 == 0) write.add_unknown(node, 1 - i, 3);
+      write.equals(node);
+    }
+  }
+  return list;
+}
+
+TEST(Assembly, AddsUpPointsWithOneStencil) {
+  constexpr int nodes = 200;
+  constexpr double round_off = 1e-13;  // a dozen summands of up to 26
+  const Derivatives<2> gradients = Derivatives<2>::between_orders(1, 1);
+  Weights weights = random_weights(nodes, 20, gradients.size());
+  for (int p = 0; p < nodes; p += 2) {
+    const auto first = weights.columns.begin() + weights.offsets[p];
+    std::copy(first, first + 20, first + 20);
+  }
+  const EquationList equations = balances(nodes, gradients);
+  const LinearSystem system = assemble(equations, weights, {.count = nodes}, 2);
+  const Eigen::MatrixXd expected = dense_rows(equations, weights, nodes);
+  const Eigen::MatrixXd found = dense_matrix(system);
+  for (int row = 0; row < equations.size(); ++row) {
+    const double scale = system.row_scales[row];
+    EXPECT_LT((found.row(row) - scale * expected.row(row)).cwiseAbs().maxCoeff(), round_off);
+    const auto first = system.columns.begin() + system.offsets[row];
+    EXPECT_TRUE(std::is_sorted(first, system.columns.begin() + system.offsets[row + 1]));
   }
 }
 

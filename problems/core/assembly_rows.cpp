@@ -4,10 +4,6 @@
 #include <limits>
 #include <numeric>
 
-#include <fmt/format.h>
-
-#include "methods/core/error.hpp"
-
 namespace strongpoint {
 namespace {
 
@@ -143,12 +139,12 @@ std::int64_t RowMaker::count(int row) {
     return static_cast<std::int64_t>(recipe_of(row).fields.size()) * nodes;
   }
   if (place.count == 1 && sources_.equations.terms[place.first].derivative == value_only) return 1;
-  gather(row);
-  return static_cast<std::int64_t>(columns_.size());
+  return spread_.count(row);
 }
 
 void RowMaker::make(int row) {
   const EquationPlace& place = sources_.equations.places[row];
+  is_spread_ = false;
   if (place.count > 0 && is_compact(row)) return fill_compact(row);
   has_stencil_columns_ = false;
   columns_.clear();
@@ -156,9 +152,8 @@ void RowMaker::make(int row) {
   if (place.count == 0) return;
   const Term term = sources_.equations.row(row).front();
   if (place.count == 1 && term.derivative == value_only) return fill_value(term);
-  gather(row);
-  values_.clear();
-  for (const std::int64_t column : columns_) values_.push_back(sums_[column]);
+  is_spread_ = true;
+  spread_.make(row);
 }
 
 void RowMaker::fill_value(const Term& term) {
@@ -203,49 +198,6 @@ void RowMaker::fill_compact(int row) {
     const auto first = static_cast<std::int64_t>(ids_[order_[j]]) * sources_.fields;
     for (int f = 0; f < step; ++f) *column++ = first + recipe.fields[f];
   }
-}
-
-/// Sums the entries of all terms by column, whatever their points, in the order of the terms.
-void RowMaker::gather(int row) {
-  has_stencil_columns_ = false;
-  if (sums_.empty()) {  // few systems have such rows
-    const auto unknowns = static_cast<std::size_t>(sources_.unknowns.count) * sources_.fields;
-    sums_.resize(unknowns);
-    is_column_.resize(unknowns);
-  }
-  columns_.clear();
-  const auto add = [this](std::int64_t column, double value) {
-    if (is_column_[column] == 0) {
-      columns_.push_back(column);
-      is_column_[column] = 1;
-      sums_[column] = 0;
-    }
-    sums_[column] += value;
-  };
-  const Weights& weights = sources_.weights;
-  const NodeUnknowns& unknowns = sources_.unknowns;
-  for (const Term& term : sources_.equations.row(row)) {
-    if (term.derivative == value_only) {
-      add(sources_.column(term.point, term.field),
-          unknowns.sign(term.point, term.field) * term.coefficient);
-      continue;
-    }
-    const std::span<const int> nodes = weights.nodes(term.point);
-    if (nodes.empty()) {
-      throw CaseError(
-          fmt::format("a derivative is read at evaluation point {}, which has no weights; its "
-                      "stencil was not asked for",
-                      term.point));
-    }
-    const double* values =
-        weights.values.data() + weights.offsets[term.point] * weights.per_entry + term.derivative;
-    for (std::size_t j = 0; j < nodes.size(); ++j) {
-      add(sources_.column(nodes[j], term.field),
-          unknowns.sign(nodes[j], term.field) * term.coefficient * values[j * weights.per_entry]);
-    }
-  }
-  for (const std::int64_t column : columns_) is_column_[column] = 0;
-  std::sort(columns_.begin(), columns_.end());
 }
 
 }  // namespace strongpoint

@@ -4,24 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "methods/core/weights.hpp"
-#include "problems/core/equation.hpp"
-#include "problems/core/unknowns.hpp"
+#include "problems/core/row_sources.hpp"
+#include "problems/core/spread_rows.hpp"
 
 namespace strongpoint {
-
-/// What the rows of a system are made of.
-struct RowSources {
-  const EquationList& equations;
-  const Weights& weights;
-  const NodeUnknowns& unknowns;
-  int fields;
-
-  /// The unknown of a field at a node of the sites.
-  std::int64_t column(int node, int field) const {
-    return static_cast<std::int64_t>(unknowns.of(node)) * fields + field;
-  }
-};
 
 /// The terms of an equation at one point, added up: for each field that occurs, the derivatives and
 /// what they are multiplied by.
@@ -41,7 +27,8 @@ void sort_positions(int count, int* ids, int* order);
 /// Makes rows, one after the other, with buffers of its own: one for each thread.
 class RowMaker {
  public:
-  explicit RowMaker(const RowSources& sources) : sources_(sources), recipes_(sources.fields) {}
+  explicit RowMaker(const RowSources& sources)
+      : sources_(sources), spread_(sources), recipes_(sources.fields) {}
 
   /// Number of entries of a row. Throws as `make` does.
   std::int64_t count(int row);
@@ -50,8 +37,13 @@ class RowMaker {
   /// read at a point without weights.
   void make(int row);
 
-  std::span<const std::int64_t> columns() const { return columns_; }  ///< ascending
-  std::span<const double> values() const { return values_; }
+  /// Ascending.
+  std::span<const std::int64_t> columns() const {
+    return is_spread_ ? spread_.columns() : std::span<const std::int64_t>(columns_);
+  }
+  std::span<const double> values() const {
+    return is_spread_ ? spread_.values() : std::span<const double>(values_);
+  }
 
  private:
   /// The recipe of a row in turn, kept while the rows are alike.
@@ -61,6 +53,8 @@ class RowMaker {
   };
 
   RowSources sources_;
+  SpreadRowMaker spread_;
+  bool is_spread_ = false;             ///< `spread_` holds the row
   std::vector<Known> recipes_;         ///< (fields)
   std::vector<double> coefficients_;   ///< (fields x derivatives)
   int sorted_point_ = -1;              ///< whose nodes `order_` sorts
@@ -70,10 +64,8 @@ class RowMaker {
   bool has_stencil_columns_ = false;   ///< false after a row that is no stencil
   std::vector<std::int64_t> columns_;
   std::vector<double> values_;
-  int judged_point_ = -1;                ///< the point that `is_plain_` belongs to
-  bool is_plain_ = true;                 ///< its nodes are unknowns, all different
-  std::vector<double> sums_;             ///< (unknowns) a row of several points, at its columns
-  std::vector<std::uint8_t> is_column_;  ///< (unknowns) 1 at its columns
+  int judged_point_ = -1;  ///< the point that `is_plain_` belongs to
+  bool is_plain_ = true;   ///< its nodes are unknowns, all different
 
   bool has_plain_nodes(int point);
   bool is_compact(int row);
@@ -81,7 +73,6 @@ class RowMaker {
   void sort_nodes(int point);
   void fill_compact(int row);
   void fill_value(const Term& term);
-  void gather(int row);
 };
 
 }  // namespace strongpoint
