@@ -18,6 +18,7 @@ std::vector<std::string> plan_for(const LinearSystem& system) {
   if (system.rows() > system.unknowns()) return {"normal", "spqr"};
   const bool is_blocked = system.fields <= most_fields && system.unknowns() % system.fields == 0;
   const std::int64_t many = system.dimension == 3 ? many_in_space : many_in_plane;
+  if (is_blocked && system.dimension == 2 && system.unknowns() < many) return {"frontal"};
   if (!is_blocked || system.dimension < 2 || system.unknowns() < many) return {"umfpack"};
   if (system.dimension == 2) {
     return {"bicgstab[precond=amg,tolerance=1e-10,iterations=80]", "umfpack"};
@@ -31,7 +32,7 @@ LinearSolution solve_auto(const LinearSystem& system) {
   for (const std::string& spec : plan) {
     try {
       LinearSolution solution = solve(system, spec);
-      solution.solver = spec;
+      if (solution.solver.empty()) solution.solver = spec;
       return solution;
     } catch (const CaseError&) {
       if (spec == plan.back()) throw;
@@ -47,8 +48,9 @@ LinearSolution solve_auto(const LinearSystem& system) {
 SolverEntry solver_auto() {
   return {
       {"auto",
-       "least squares: normal, else spqr; below 15000 unknowns (3D: 5000) and in 1D: umfpack; "
-       "above: bicgstab to 1e-10, precond=amg in 2D, in 3D ilu0, else ilut; umfpack when it fails",
+       "least squares: normal, else spqr; in 2D below 15000 unknowns: frontal; in 1D, and in 3D "
+       "below 5000: umfpack; above: bicgstab to 1e-10, precond=amg in 2D, in 3D ilu0, else ilut; "
+       "umfpack when it fails",
        {}},
       Shape::overdetermined,
       Approach::iterative,

@@ -1,0 +1,144 @@
+// The frontal solver: the graph of nodes, their order, the factors, and what it leaves to others.
+#include <algorithm>
+#include <numeric>
+
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+#include "bench/elastic_system.hpp"
+#include "problems/core/front_order.hpp"
+#include "problems/core/frontal_factor.hpp"
+#include "problems/core/frontal_plan.hpp"
+#include "problems/core/solver_entry.hpp"
+#include "tests/linear_systems.hpp"
+#include "tests/simd_paths.hpp"
+
+namespace strongpoint {
+namespace {
+
+double difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  return (a - b).lpNorm<Eigen::Infinity>() / b.lpNorm<Eigen::Infinity>();
+}
+
+/// The graph of a lattice whose nodes are coupled as far as `reach` along both axes, numbered at
+/// random.
+NodeGraph lattice(int width, int length, int reach, std::mt19937_64& generator) {
+  std::vector<int> number(width * length);
+  std::iota(number.begin(), number.end(), 0);
+  std::shuffle(number.begin(), number.end(), generator);
+  std::vector<std::vector<int>> neighbours(number.size());
+  for (int a = 0; a < width * length; ++a) {
+    for (int b = 0; b < width * length; ++b) {
+      const int across = std::abs(a % width - b % width);
+      const int along = std::abs(a / width - b / width);
+      if (a != b && std::max(across, along) <= reach) neighbours[number[a]].push_back(number[b]);
+    }
+  }
+  NodeGraph graph{{0}, {}};
+  for (std::vector<int>& ids : neighbours) {
+    graph.neighbours.insert(graph.neighbours.end(), ids.begin(), ids.end());
+    graph.offsets.push_back(static_cast<int>(graph.neighbours.size()));
+  }
+  return graph;
+}
+
+TEST(NodeGraph, CouplesNodesBothWaysInAscendingOrder) {
+  std::mt19937_64 generator(1);
+  for (int fields = 1; fields <= 3; ++fields) {
+    constexpr int nodes = 40;
+    const int size = nodes * fields;
+    const Eigen::MatrixXd matrix = sparse_matrix(size, size, 0.03, generator);
+    const LinearSystem system = system_of(matrix, random_vector(size, generator), fields);
+    const NodeGraph graph = node_graph(view_of(system), fields);
+    ASSERT_EQ(graph.size(), nodes);
+    for (int a = 0; a < nodes; ++a) {
+      std::vector<int> expected;
+      for (int b = 0; b < nodes; ++b) {
+        const bool is_coupled = !matrix.block(a * fields, b * fields, fields, fields).isZero(0) ||
+                                !matrix.block(b * fields, a * fields, fields, fields).isZero(0);
+        if (a != b && is_coupled) expected.push_back(b);
+      }
+      EXPECT_EQ(std::vector<int>(graph.of(a).begin(), graph.of(a).end()), expected);
+    }
+  }
+}
+
+TEST(FrontOrder, SweepsAlongAStrip) {
+  std::mt19937_64 generator(2);
+  constexpr int width = 8;
+  constexpr int reach = 2;
+  const NodeGraph graph = lattice(width, 60, reach, generator);
+  const std::vector<int> order = front_order(graph);
+  std::vector<int> sorted = order;
+  std::sort(sorted.begin(), sorted.end());
+  for (int i = 0; i < graph.size(); ++i) ASSERT_EQ(sorted[i], i);
+  std::size_t widest = 0;
+  for (const FrontStep& step : plan_fronts(graph, order, 1)) {
+    widest = std::max(widest, step.nodes.size());
+  }
+  // Line by line there are `reach` lines beside the node, those it brings in and itself.
+  EXPECT_LE(widest, static_cast<std::size_t>(width * reach + width));
+}
+
+TEST(FrontOrder, NumbersEveryComponent) {
+  const NodeGraph graph{{0, 1, 2, 2, 3, 5, 6}, {1, 0, 4, 3, 5, 4}};  // 0-1, 2, 3-4-5
+  std::vector<int> order = front_order(graph);
+  std::sort(order.begin(), order.end());
+  EXPECT_EQ(order, (std::vector<int>{0, 1, 2, 3, 4, 5}));
+}
+
+TEST(FrontalFactor, SolvesWithAnyNumberOfFieldsOnEveryPath) {
+  constexpr double round_off = 1e-12;  // of some hundred unknowns, conditions below 100
+  on_every_path([&] {
+    std::mt19937_64 generator(3);
+    for (int fields : {1, 2, 3, 5, 40}) {
+      const int size = 5 * (40 + fields) / fields * fields;
+      const Eigen::MatrixXd matrix = dominant_matrix(size, 8.0 / size, generator);
+      const LinearSystem system = system_of(matrix, random_vector(size, generator), fields);
+      const NodeGraph graph = node_graph(view_of(system), fields);
+      const FrontalFactor factor(view_of(system), fields, graph, front_order(graph));
+      ASSERT_TRUE(factor.has_factors());
+      Eigen::VectorXd x = system.right_hand_side;
+      factor.solve(x.data(), x.data());
+      EXPECT_LT(difference(x, matrix.partialPivLu().solve(system.right_hand_side)), round_off)
+          << fields;
+    }
+  });
+}
+
+TEST(FrontalFactor, TellsAMatrixThatItHasNoPivotsFor) {
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(50, 50);
+  matrix(20, 20) = 0;
+  const LinearSystem system = system_of(matrix, Eigen::VectorXd::Ones(50));
+  const NodeGraph graph = node_graph(view_of(system), 1);
+  EXPECT_FALSE(FrontalFactor(view_of(system), 1, graph, front_order(graph)).has_factors());
+}
+
+TEST(Frontal, SolvesElasticityWithTractions) {
+  constexpr double round_off = 1e-10;  // condition 1e5
+  const KnownSystem known = ElasticSystem<2>({.level = 21, .stencil = "nearest[k=15]"}).assembled();
+  on_every_path([&] {
+    const LinearSolution solution = solve(known.system, "frontal");
+    EXPECT_EQ(solution.solver, "frontal");
+    EXPECT_GT(solution.bytes, 0U);
+    EXPECT_LT(difference(solution.x, known.solution), round_off);
+  });
+}
+
+/// A shift along a ring: any few nodes have a row that reads nothing of them.
+TEST(Frontal, LeavesToFullPivotingWhatPivotsOfAFewRowsDoNotServe) {
+  constexpr int n = 200;
+  std::mt19937_64 generator(4);
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(n, n) * 1e-18;
+  for (int i = 0; i < n; ++i) matrix(i, (i + 1) % n) = 1;
+  const Eigen::VectorXd x = random_vector(n, generator);
+  const LinearSolution solution = solve(system_of(matrix, matrix * x), "frontal");
+  EXPECT_EQ(solution.solver, "umfpack");
+  EXPECT_LT(solution.residual, 1e-14);
+  const std::string message = message_of<CaseError>(
+      [] { solve(system_of(Eigen::MatrixXd::Ones(4, 4), Eigen::VectorXd::Ones(4)), "frontal"); });
+  EXPECT_NE(message.find("singular"), std::string::npos) << message;
+}
+
+}  // namespace
+}  // namespace strongpoint
