@@ -38,9 +38,9 @@ struct Kirsch {
 
 class PlateHole final : public ElasticProblem<2> {
  public:
-  PlateHole(double a, double nu, Map map, Unknowns unknowns)
+  PlateHole(double a, double nu, Map map, double growth, Unknowns unknowns)
       : ElasticProblem(unknowns),
-        domain_(a, map),
+        domain_(a, map, growth),
         hole_radius_(a),
         material_(lame_constants(young, nu)),
         exact_(Kirsch{a, 3 - 4 * nu, material_.mu, tension}, material_) {}
@@ -108,13 +108,16 @@ ProblemEntry problem_plate_hole() {
             {"map", "log",
              "log | edge: spacing of a grid's nodes along a ray, isotropic at the hole or "
              "uniform"},
+            {"growth", "1.5",
+             "power of the distance from the hole's centre by which the spacing of scattered nodes "
+             "grows, 0 to 2"},
             unknowns_option()}},
           [](const Options& options) -> AnyProblem {
             const double nu = options.number("nu", 0, 0.4999);
             return std::make_unique<PlateHole>(
                 options.number("a", 0.01, 0.9), nu,
                 options.choice<Map>("map", {{"log", Map::log}, {"edge", Map::edge}}),
-                chosen_unknowns(options, nu));
+                options.number("growth", 0, 2), chosen_unknowns(options, nu));
           }};
 }
 

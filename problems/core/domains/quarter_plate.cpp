@@ -78,7 +78,7 @@ std::vector<Block<2>> QuarterPlate::blocks() const {
 }
 
 double QuarterPlate::spacing(const Point2& x, int level) const {
-  return std::numbers::pi / 2 / (level - 1) * a_ * std::pow(std::max(x.norm(), a_) / a_, 1.5);
+  return std::numbers::pi / 2 / (level - 1) * a_ * std::pow(std::max(x.norm(), a_) / a_, growth_);
 }
 
 std::vector<Feature<2>> QuarterPlate::features() const {

@@ -20,8 +20,8 @@ class QuarterPlate final : public Domain<2> {
   /// The sides, in their order.
   enum Side { hole, bottom, right, top, left };
 
-  /// Takes a radius 0 < a < 1.
-  QuarterPlate(double a, Map map) : a_(a), map_(map) {}
+  /// Takes a radius 0 < a < 1 and the power of r by which the spacing of scattered nodes grows.
+  QuarterPlate(double a, Map map, double growth = 1.5) : a_(a), map_(map), growth_(growth) {}
 
   const std::vector<std::string>& sides() const override;
   double measure() const override;
@@ -34,13 +34,14 @@ class QuarterPlate final : public Domain<2> {
   std::vector<BoundaryPiece<2>> pieces() const override;
   /// Two, split at 45 degrees, where the outer sides meet and the map has a kink.
   std::vector<Block<2>> blocks() const override;
-  /// c a (r/a)^1.5 with c = (pi/2) / (n-1): n nodes on the arc.
+  /// c a (r/a)^growth with c = (pi/2) / (n-1): n nodes on the arc.
   double spacing(const Point<2>& x, int level) const override;
   std::vector<Feature<2>> features() const override;
 
  private:
   double a_;
   Map map_;
+  double growth_;
 };
 
 }  // namespace strongpoint
