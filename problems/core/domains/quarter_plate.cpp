@@ -78,7 +78,9 @@ std::vector<Block<2>> QuarterPlate::blocks() const {
 }
 
 double QuarterPlate::spacing(const Point2& x, int level) const {
-  return std::numbers::pi / 2 / (level - 1) * a_ * std::pow(std::max(x.norm(), a_) / a_, growth_);
+  const double ratio = std::max(x.norm(), a_) / a_;
+  const double grown = growth_ == 1 ? ratio : std::pow(ratio, growth_);  // the same, sooner
+  return std::numbers::pi / 2 / (level - 1) * a_ * grown;
 }
 
 std::vector<Feature<2>> QuarterPlate::features() const {
