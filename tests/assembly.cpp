@@ -11,10 +11,12 @@
 #include <omp.h>
 
 #include "methods/core/error.hpp"
+#include "methods/core/simd/output.hpp"
 #include "problems/core/assembly_rows.hpp"
 #include "problems/core/column_set.hpp"
 #include "problems/core/elasticity.hpp"
 #include "problems/core/random.hpp"
+#include "tests/simd_paths.hpp"
 
 namespace strongpoint {
 namespace {
@@ -214,6 +216,54 @@ TEST(Assembly, AddsUpTheTermsOfEveryKindOfRow) {
                                    system.columns.begin() + system.offsets[row + 1]));
       }
     }
+  }
+}
+
+/// The Laplacian of one field, or the equilibrium of two, at each node.
+EquationList plain_equations(int nodes, int fields) {
+  EquationList list;
+  EquationWriter<2> write(list, second_order);
+  for (int node = 0; node < nodes; ++node) {
+    write.at(node);
+    for (int i = 0; i < fields; ++i) {
+      if (fields == 1) {
+        write.add(0, {2, 0}, 1);
+        write.add(0, {0, 2}, 1);
+      } else {
+        add_equilibrium<2>(write, Lame{2, 1}, i);
+      }
+      write.equals(node);
+    }
+  }
+  return list;
+}
+
+TEST(Assembly, WritesLargeSystemsPastTheCaches) {
+  constexpr double round_off = 1e-14;  // of sums of five products at most
+  for (const int fields : {1, 2}) {
+    const int nodes = 80000 / (fields * fields);
+    const Weights weights = random_weights(nodes, 30, second_order.size());
+    const EquationList equations = plain_equations(nodes, fields);
+    const NodeUnknowns unknowns{.count = nodes};
+    on_every_path([&] {
+      const LinearSystem system = assemble(equations, weights, unknowns, fields);
+      ASSERT_GE(system.values.size(), least_streamed);
+      RowMaker maker({equations, weights, unknowns, fields});
+      int others = 0;
+      for (int row = 0; row < system.rows(); ++row) {
+        maker.make(row);
+        const std::int64_t begin = system.offsets[row];
+        bool is_same =
+            system.offsets[row + 1] - begin == static_cast<std::int64_t>(maker.columns().size());
+        for (std::size_t e = 0; is_same && e < maker.columns().size(); ++e) {
+          is_same = system.columns[begin + e] == maker.columns()[e] &&
+                    std::abs(system.values[begin + e] -
+                             maker.values()[e] * system.row_scales[row]) <= round_off;
+        }
+        others += is_same ? 0 : 1;
+      }
+      EXPECT_EQ(others, 0);
+    });
   }
 }
 

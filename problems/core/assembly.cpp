@@ -156,6 +156,7 @@ void fill_run(const RowSources& sources, int first, Pattern pattern, Tools& tool
              .columns = system.columns.data(),
              .values = system.values.data(),
              .scales = system.row_scales.data() + first,
+             .output = system.values.size() >= least_streamed ? Output::streamed : Output::cached,
              .other_columns = pattern == Pattern::kept ? &other_columns : nullptr});
   const int end = other_columns >= 0 ? first + other_columns + 1 : first + points * sources.fields;
   for (int row = first; row < end; ++row) {

@@ -1,6 +1,6 @@
 #include "problems/core/simd/rows_kernel.hpp"
 
-#include "methods/core/simd/pack.hpp"
+#include "methods/core/simd/lane_scatter.hpp"
 
 namespace strongpoint::STRONGPOINT_SIMD_PATH {
 namespace {
@@ -20,17 +20,63 @@ constexpr double most = __DBL_MAX__;
 
 constexpr int padded(int count, int unit) { return (count + unit - 1) / unit * unit; }
 
+/// The first `count` of some ids, large numbers behind them.
+inline Ids load_ids(const int* ids, int count) {
+#if defined(__AVX512F__)
+  const auto some = count < ids_at_once ? static_cast<__mmask16>((1U << count) - 1) : __mmask16(-1);
+  return reinterpret_cast<Ids>(
+      _mm512_mask_loadu_epi32(_mm512_set1_epi32(beyond), count > 0 ? some : __mmask16(0), ids));
+#else
+  Ids result;
+  for (int i = 0; i < ids_at_once; ++i) result[i] = i < count ? ids[i] : beyond;
+  return result;
+#endif
+}
+
 /// The place of each id in ascending order: the number of smaller ones. No branch depends on data.
 template <int Blocks>
 void rank_few(const int* ids, int count, int* rank) {
   constexpr int packs = Blocks * block / ids_at_once;
-  const Ids* const numbers = reinterpret_cast<const Ids*>(ids);
+  Ids numbers[packs];
+  for (int b = 0; b < packs; ++b) {
+    numbers[b] = load_ids(ids + b * ids_at_once, count - b * ids_at_once);
+  }
   Ids smaller[packs] = {};
   for (int j = 0; j < count; ++j) {
     for (int b = 0; b < packs; ++b) smaller[b] -= numbers[b] > ids[j];  // true is -1
   }
   for (int b = 0; b < packs; ++b) reinterpret_cast<Ids*>(rank)[b] = smaller[b];
 }
+
+inline void rank_nodes(const int* nodes, int count, int* rank) {
+  if (count <= block) return rank_few<1>(nodes, count, rank);
+  if (count <= 2 * block) return rank_few<2>(nodes, count, rank);
+  rank_few<most_kernel_nodes / block>(nodes, count, rank);
+}
+
+/// Entries that were made and wait to be written, few enough to stay in the first-level cache.
+struct Made {
+  static constexpr int room = 1024;
+
+  alignas(64) double values[room];
+  alignas(64) std::int64_t columns[room];
+  std::int64_t begin = 0;  ///< where they go
+  int count = 0;
+
+  void write(const RowsTask& task) {
+    copy(task.output, values, task.values + begin);
+    if (task.other_columns == nullptr) copy(task.output, columns, task.columns + begin);
+    begin += count;
+    count = 0;
+  }
+
+ private:
+  template <class Number>
+  void copy(Output output, const Number* from, Number* to) const {
+    if (output == Output::streamed) return stream_copy(from, count, to);
+    for (int e = 0; e < count; ++e) to[e] = from[e];
+  }
+};
 
 /// Buffers for one point.
 template <int Fields>
@@ -40,26 +86,19 @@ struct Buffers {
 
   alignas(64) int rank[most_kernel_nodes];
   alignas(64) double coefficients[most_kernel_derivatives][width];
-  alignas(64) int ids[most_kernel_nodes + block];
   alignas(64) std::int64_t columns[most_kernel_nodes * Fields];
-  alignas(64) double sums[most_kernel_nodes + lanes][width];
+  alignas(64) double sums[most_kernel_nodes][width];
+  double entries_of_one[most_kernel_nodes];  ///< of one field
+  const int* nodes;                          ///< of the same
   double scales[Fields];
-  int sorted[most_kernel_nodes];
+  Made made;
 };
 
-template <int Fields>
-void sort_nodes(const int* nodes, int count, Buffers<Fields>& work) {
-  const int filled = padded(count, block);
-  for (int j = 0; j < count; ++j) work.ids[j] = nodes[j];
-  for (int j = count; j < filled; ++j) work.ids[j] = beyond;
-  if (filled == block) {
-    rank_few<1>(work.ids, count, work.rank);
-  } else if (filled == 2 * block) {
-    rank_few<2>(work.ids, count, work.rank);
-  } else {
-    rank_few<most_kernel_nodes / block>(work.ids, count, work.rank);
-  }
-  for (int j = 0; j < count; ++j) work.sorted[work.rank[j]] = work.ids[j];
+/// 1 / largest magnitude, 0 where all are zero or one is not finite.
+inline double scale_of(double largest, double total) {
+  // A sum of magnitudes is finite when they are, but for overflow.
+  const double scale = 1 / largest;
+  return largest > 0 && total <= most && scale <= most ? scale : 0;
 }
 
 /// Sums of all rows at the nodes, put where the nodes belong: a node's derivatives times the
@@ -71,54 +110,30 @@ void add_up(const RowsTask& task, std::int64_t first, int count, Buffers<Fields>
   for (int j = 0; j < count; ++j) {
     const double* w = task.weights + (first + j) * m;
     const int place = work.rank[j];
-    if constexpr (Work::entries == 1) {
-      double sum = 0;
-      for (int d = 0; d < m; ++d) sum += w[d] * work.coefficients[d][0];
-      (&work.sums[0][0])[place] = sum;
-    } else {
-      for (int e = 0; e < Work::width; e += lanes) {
-        Pack sum = all(w[0]) * load(&work.coefficients[0][e]);
-        for (int d = 1; d < m; ++d) sum = sum + all(w[d]) * load(&work.coefficients[d][e]);
-        store(&work.sums[place][e], sum);
-      }
+    for (int e = 0; e < Work::width; e += lanes) {
+      Pack sum = all(w[0]) * load(&work.coefficients[0][e]);
+      for (int d = 1; d < m; ++d) sum = sum + all(w[d]) * load(&work.coefficients[d][e]);
+      store(&work.sums[place][e], sum);
     }
   }
 }
 
-/// 1 / largest entry of each row, 0 where there is none or one is not finite.
+/// The scales of all rows.
 template <int Fields>
 void find_scales(int count, Buffers<Fields>& work) {
   using Work = Buffers<Fields>;
-  alignas(64) double largest[Work::width < lanes ? lanes : Work::width] = {};
-  alignas(64) double total[Work::width < lanes ? lanes : Work::width] = {};
-  if constexpr (Work::entries == 1) {
-    double* const sums = &work.sums[0][0];
-    for (int j = count; j < padded(count, lanes); ++j) sums[j] = 0;
+  alignas(64) double largest[Work::width];
+  alignas(64) double total[Work::width];
+  for (int e = 0; e < Work::width; e += lanes) {
     Pack high = all(0);
     Pack sum = all(0);
-    for (int j = 0; j < count; j += lanes) {
-      const Pack size = abs(load(sums + j));
+    for (int j = 0; j < count; ++j) {
+      const Pack size = abs(load(&work.sums[j][e]));
       high = max(size, high);
       sum = sum + size;
     }
-    store(largest, high);
-    store(total, sum);
-    for (int lane = 1; lane < lanes; ++lane) {
-      largest[0] = largest[lane] > largest[0] ? largest[lane] : largest[0];
-      total[0] += total[lane];
-    }
-  } else {
-    for (int e = 0; e < Work::width; e += lanes) {
-      Pack high = all(0);
-      Pack sum = all(0);
-      for (int j = 0; j < count; ++j) {
-        const Pack size = abs(load(&work.sums[j][e]));
-        high = max(size, high);
-        sum = sum + size;
-      }
-      store(largest + e, high);
-      store(total + e, sum);
-    }
+    store(largest + e, high);
+    store(total + e, sum);
   }
   for (int row = 0; row < Fields; ++row) {
     double high = 0;
@@ -128,31 +143,7 @@ void find_scales(int count, Buffers<Fields>& work) {
       high = largest[e] > high ? largest[e] : high;
       sum += total[e];
     }
-    // A sum of magnitudes is finite when they are, but for overflow.
-    const double scale = 1 / high;
-    work.scales[row] = high > 0 && sum <= most && scale <= most ? scale : 0;
-  }
-}
-
-template <int Fields>
-void write_values(int count, int row, double scale, const Buffers<Fields>& work, double* values) {
-  if constexpr (Fields == 1) {
-    const double* const sums = &work.sums[0][0];
-    for (int j = 0; j < count; ++j) values[j] = sums[j] * scale;
-  } else {
-    for (int j = 0; j < count; ++j) {
-      for (int f = 0; f < Fields; ++f) {
-        values[j * Fields + f] = work.sums[j][row * Fields + f] * scale;
-      }
-    }
-  }
-}
-
-template <int Fields>
-void make_columns(int count, Buffers<Fields>& work) {
-  for (int j = 0; j < count; ++j) {
-    const std::int64_t first = static_cast<std::int64_t>(work.sorted[j]) * Fields;
-    for (int f = 0; f < Fields; ++f) work.columns[j * Fields + f] = first + f;
+    work.scales[row] = scale_of(high, sum);
   }
 }
 
@@ -160,6 +151,117 @@ bool are_same(const std::int64_t* a, const std::int64_t* b, int count) {
   std::int64_t difference = 0;
   for (int i = 0; i < count; ++i) difference |= a[i] ^ b[i];
   return difference == 0;
+}
+
+/// Makes the rows of a point.
+template <int Fields>
+struct PointRows {
+  static void find(const RowsTask& task, std::int64_t first, int count, Buffers<Fields>& work) {
+    add_up<Fields>(task, first, count, work);
+    find_scales<Fields>(count, work);
+    for (int j = 0; j < count; ++j) {
+      std::int64_t* const columns = work.columns + work.rank[j] * Fields;
+      for (int f = 0; f < Fields; ++f) {
+        columns[f] = static_cast<std::int64_t>(task.nodes[first + j]) * Fields + f;
+      }
+    }
+  }
+  static void put(int count, int row, double scale, Buffers<Fields>& work) {
+    double* const values = work.made.values + work.made.count;
+    std::int64_t* const columns = work.made.columns + work.made.count;
+    for (int j = 0; j < count; ++j) {
+      for (int f = 0; f < Fields; ++f) {
+        values[j * Fields + f] = work.sums[j][row * Fields + f] * scale;
+      }
+    }
+    for (int e = 0; e < count * Fields; ++e) columns[e] = work.columns[e];
+  }
+};
+
+/// The same for one field, in the order of the stencil until numbers are put.
+template <>
+struct PointRows<1> {
+  static constexpr int chains = 4;  ///< independent of each other
+
+  template <int Derivatives>
+  static double sum_at(const double* w, int derivatives, const Buffers<1>& work) {
+    const int m = Derivatives > 0 ? Derivatives : derivatives;
+    double sum = w[0] * work.coefficients[0][0];
+    for (int d = 1; d < m; ++d) sum += w[d] * work.coefficients[d][0];
+    return sum;
+  }
+  /// Derivatives is their number, 0 where it is not known before.
+  template <int Derivatives>
+  static void add_up(const RowsTask& task, std::int64_t first, int count, Buffers<1>& work) {
+    double high[chains] = {};
+    double total[chains] = {};
+    const int m = Derivatives > 0 ? Derivatives : task.derivatives;
+    const double* const weights = task.weights + first * m;
+    const auto add = [&](int j, int chain) {
+      const double sum = sum_at<Derivatives>(weights + static_cast<long>(j) * m, m, work);
+      const double size = __builtin_fabs(sum);
+      work.entries_of_one[j] = sum;
+      high[chain] = size > high[chain] ? size : high[chain];
+      total[chain] += size;
+    };
+    const int whole = count - count % chains;
+    for (int j = 0; j < whole; j += chains) {
+#pragma GCC unroll 4
+      for (int chain = 0; chain < chains; ++chain) add(j + chain, chain);
+    }
+    for (int j = whole; j < count; ++j) add(j, j - whole);
+    const double low = high[0] > high[1] ? high[0] : high[1];
+    const double top = high[2] > high[3] ? high[2] : high[3];
+    work.scales[0] = scale_of(low > top ? low : top, (total[0] + total[1]) + (total[2] + total[3]));
+  }
+  static void find(const RowsTask& task, std::int64_t first, int count, Buffers<1>& work) {
+    work.nodes = task.nodes + first;
+    if (task.derivatives == 2) return add_up<2>(task, first, count, work);
+    if (task.derivatives == 3) return add_up<3>(task, first, count, work);
+    add_up<0>(task, first, count, work);
+  }
+  static void put(int count, int, double scale, Buffers<1>& work) {
+    double* const values = work.made.values + work.made.count;
+    std::int64_t* const columns = work.made.columns + work.made.count;
+    for (int j = 0; j < count; ++j) {
+      const int place = work.rank[j];
+      values[place] = work.entries_of_one[j] * scale;
+      columns[place] = work.nodes[j];
+    }
+  }
+};
+
+/// Makes the rows of the points; returns the first one that has not the columns that are there, -1
+/// for none.
+template <int Fields>
+int make_rows_with(const RowsTask& task, Buffers<Fields>& work) {
+  Made& made = work.made;
+  made.begin = task.offsets[0];
+  for (int i = 0; i < task.count; ++i) {
+    const int point = task.points[i];
+    const std::int64_t first = task.weight_offsets[point];
+    const int count = static_cast<int>(task.weight_offsets[point + 1] - first);
+    rank_nodes(task.nodes + first, count, work.rank);
+    PointRows<Fields>::find(task, first, count, work);
+    const int length = count * Fields;
+    if (made.count + length * Fields > Made::room) made.write(task);
+    for (int r = 0; r < Fields; ++r) {
+      const int row = i * Fields + r;
+      const double weight = task.row_weights != nullptr ? task.row_weights[row] : 1;
+      const double scale = work.scales[r] * weight;
+      PointRows<Fields>::put(count, r, scale, work);
+      if (task.other_columns != nullptr) {
+        const std::int64_t begin = task.offsets[row];
+        if (task.offsets[row + 1] - begin != length ||
+            !are_same(task.columns + begin, made.columns + made.count, length)) {
+          return row;
+        }
+      }
+      made.count += length;
+      task.scales[row] = scale;
+    }
+  }
+  return -1;
 }
 
 template <int Fields>
@@ -171,32 +273,10 @@ void make_rows_of(const RowsTask& task) {
       work.coefficients[d][e] = e < Work::entries ? task.coefficients[d * Work::entries + e] : 0;
     }
   }
-  for (int i = 0; i < task.count; ++i) {
-    const int point = task.points[i];
-    const std::int64_t first = task.weight_offsets[point];
-    const int count = static_cast<int>(task.weight_offsets[point + 1] - first);
-    sort_nodes<Fields>(task.nodes + first, count, work);
-    add_up<Fields>(task, first, count, work);
-    find_scales<Fields>(count, work);
-    make_columns<Fields>(count, work);
-    for (int r = 0; r < Fields; ++r) {
-      const int row = i * Fields + r;
-      const std::int64_t begin = task.offsets[row];
-      const int length = count * Fields;
-      std::int64_t* const columns = task.columns + begin;
-      if (task.other_columns == nullptr) {
-        for (int e = 0; e < length; ++e) columns[e] = work.columns[e];
-      } else if (task.offsets[row + 1] - begin != length ||
-                 !are_same(columns, work.columns, length)) {
-        *task.other_columns = row;
-        return;
-      }
-      double scale = work.scales[r];
-      if (task.row_weights != nullptr) scale *= task.row_weights[row];
-      write_values<Fields>(count, r, scale, work, task.values + begin);
-      task.scales[row] = scale;
-    }
-  }
+  const int other = make_rows_with<Fields>(task, work);
+  work.made.write(task);
+  end_streams();
+  if (other >= 0) *task.other_columns = other;
 }
 
 }  // namespace

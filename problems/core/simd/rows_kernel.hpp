@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "methods/core/simd/output.hpp"
 #include "methods/core/simd/path.hpp"
 
 namespace strongpoint {
@@ -31,6 +32,7 @@ struct RowsTask {
   std::int64_t* columns;        ///< written, or compared
   double* values;               ///< written
   double* scales;               ///< (count * fields) written; not positive for a bad row
+  Output output;                ///< how columns and values are stored
   int* other_columns;           ///< null: columns are written; else they are compared, and the
                                 ///< first row that has others is noted here
 };
