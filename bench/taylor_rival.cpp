@@ -55,8 +55,7 @@ struct Rival {
     const int size = task.size;
     resize(size);
     for (int i = 0; i < task.count; ++i) {
-      const double inverse =
-          gather(task.nodes, task.ids + static_cast<std::int64_t>(i) * size, i);
+      const double inverse = gather(task.nodes, task.ids + static_cast<std::int64_t>(i) * size, i);
       fill_basis();
       distances = z.colwise().norm();
       task.weigh(distances.data(), size, squared.data());
@@ -75,8 +74,8 @@ struct Rival {
         right(a, d) = (a < Dim ? inverse : inverse * inverse) * (is_square(a) ? 2 : 1);
       }
       solution = lu.solve(right);
-      Eigen::Map<Eigen::MatrixXd> weights(
-          task.values + static_cast<std::int64_t>(i) * count * size, count, size);
+      Eigen::Map<Eigen::MatrixXd> weights(task.values + static_cast<std::int64_t>(i) * count * size,
+                                          count, size);
       weights.noalias() = solution.transpose() * weighted;
       weights.col(0) = -weights.rightCols(size - 1).rowwise().sum();
     }

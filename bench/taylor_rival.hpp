@@ -18,4 +18,5 @@ struct TaylorRivalTask {
 
 /// Fills the weights by Eigen's PartialPivLU of each moment matrix. The library is built for the
 /// processor at hand and shares no code with the rest.
-extern "C" __attribute__((visibility("default"))) void taylor_rival_weights(const TaylorRivalTask* task);
+extern "C" __attribute__((visibility("default"))) void taylor_rival_weights(
+    const TaylorRivalTask* task);

@@ -110,6 +110,23 @@ TEST(TaylorBatch, GivesAnAnchorTheSameBitsInAnyCompany) {
   });
 }
 
+TEST(TaylorBatch, WritesTheSameBitsPastTheCaches) {
+  const auto scene = make_scene<2>("gfdm", "perturbed[amount=0.3]", 230, 1);
+  const auto derivatives = Derivatives<2>::between_orders(1, 2);
+  const Stencils half = every(scene.stencils, 2);
+  on_every_path([&] {
+    const Weights all = scene.method->weights(scene.sites, scene.stencils, derivatives);
+    const Weights some = scene.method->weights(scene.sites, half, derivatives);
+    ASSERT_GE(all.values.size(), least_streamed);
+    ASSERT_LT(some.values.size(), least_streamed);
+    int others = 0;
+    for (int p = 0; p < some.size(); p += 2) {
+      others += (some.row(p).array() == all.row(p).array()).all() ? 0 : 1;
+    }
+    EXPECT_EQ(others, 0);
+  });
+}
+
 TEST(TaylorBatch, GivesTheSameBitsOnAnyNumberOfThreads) {
   const auto scene = make_scene<2>("lsfdm", "perturbed[amount=0.3]", 30, 1);
   const auto derivatives = Derivatives<2>::between_orders(1, 2);

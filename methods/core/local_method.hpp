@@ -129,10 +129,19 @@ Weights weights_on_stencils(const Sites<Dim>& sites, const Stencils& stencils, i
     weights.offsets[p + 1] = weights.offsets[p] + list[1] - list[0];
   }
   weights.columns.resize(weights.offsets.back());
+  constexpr int at_once = 256;
 #pragma omp parallel for schedule(static)
-  for (int p = 0; p < count; ++p) {
-    const std::span<const int> nodes = stencils[sites.point_anchor[p]];
-    std::copy(nodes.begin(), nodes.end(), weights.columns.begin() + weights.offsets[p]);
+  for (int begin = 0; begin < count; begin += at_once) {
+    const int end = std::min(count - begin, at_once) + begin;
+    for (int p = begin, next = p; p < end; p = next) {
+      const int anchor = sites.point_anchor[p];
+      do {
+        ++next;  // stencils of anchors in a row lie in one piece
+      } while (next < end && sites.point_anchor[next] == anchor + next - p);
+      const auto* const nodes = stencils.nodes.data();
+      std::copy(nodes + stencils.offsets[anchor], nodes + stencils.offsets[anchor + next - p],
+                weights.columns.begin() + weights.offsets[p]);
+    }
   }
   weights.values.resize(weights.offsets.back() * per_entry);
   return weights;

@@ -8,11 +8,15 @@
 namespace strongpoint {
 namespace {
 
-/// Numbers of gathered stencils that are treated at a time: they stay in the first-level cache.
-constexpr std::size_t gathered_at_a_time = 3072;
+/// Numbers of gathered stencils that are treated at a time: they stay near, and what a call of a
+/// kernel costs is shared by many.
+constexpr std::size_t gathered_at_a_time = 12288;
 
-/// Weights from which on they are written past the caches, in which so many would not stay.
-constexpr std::size_t least_streamed = std::size_t{1} << 21;
+/// Asks for the ids of stencils that come soon, past the end of which nothing happens.
+inline void fetch_ahead(const int* ids) {
+  constexpr std::ptrdiff_t ahead = 1024;
+  __builtin_prefetch(ids + ahead);
+}
 
 template <class Number>
 void grow_to(std::vector<Number>& numbers, std::size_t size) {
@@ -34,6 +38,7 @@ void TaylorBatch<Dim>::sort_by_size(const Sites<Dim>& sites, std::span<const int
   for (std::size_t i = 0; i < anchors.size(); ++i) {
     const std::span<const int> nodes = stencils[stencil_of_place_[i]];
     const int size = static_cast<int>(nodes.size());
+    fetch_ahead(nodes.data());
     // The centre comes first, unless another node lies there too.
     if (size < needed || nodes[0] != sites.anchor_node[anchors[i]]) continue;
     sorted = sorted && before <= size;
@@ -92,11 +97,12 @@ void TaylorBatch<Dim>::tabulate(const MonomialBasis<Dim>& basis,
 }
 
 template <int Dim>
-GatherTask TaylorBatch<Dim>::gather(const Sites<Dim>& sites, const StencilTable& table,
+GatherTask TaylorBatch<Dim>::gather(const Sites<Dim>& sites, const double* anchors,
+                                    const std::int64_t* offsets, const int* ids, int most_nodes,
                                     const WeightFunction& weight) {
   const std::size_t lanes = lanes_of(simd_path());
   const std::size_t groups = (chosen_.size() + lanes - 1) / lanes;
-  const std::size_t size = table.size;
+  const std::size_t size = most_nodes;
   grow_to(z_, groups * lanes * size * Dim);
   grow_to(rho_, groups * lanes * size);
   grow_to(squared_, groups * lanes * size);
@@ -104,7 +110,8 @@ GatherTask TaylorBatch<Dim>::gather(const Sites<Dim>& sites, const StencilTable&
   grow_to(faulty_, groups);
   grow_to(done_, groups);
   const GatherTask task{
-      table,
+      {sites.nodes.data(), anchors, offsets, ids, chosen_.data(), static_cast<int>(chosen_.size()),
+       most_nodes},
       Dim,
       weight.uses_volumes() || weight.is_one() ? Distances::squares : Distances::roots,
       z_.data(),
@@ -155,25 +162,20 @@ void TaylorBatch<Dim>::fill(const TaylorParts<Dim>& fit, const StencilBatch<Dim>
     const int size = part.back().first;
     chosen_.clear();
     for (const auto& [ignored, place] : part) chosen_.push_back(batch.anchors[place]);
-    const StencilTable table{batch.sites.nodes.data(),
-                             batch.sites.anchors.data(),
-                             batch.stencils.offsets.data(),
-                             batch.stencils.nodes.data(),
-                             chosen_.data(),
-                             static_cast<int>(chosen_.size()),
-                             size};
     grow_to(scratch_, taylor_scratch(size, terms, batch.derivatives.size(), lanes));
-    fit_taylor({gather(batch.sites, table, fit.weight),
-                fit.basis.degree(),
-                fit.limits.least_pivot,
-                fit.limits.condition,
-                fit.weight.is_one() ? nullptr : squared_.data(),
-                {batch.derivatives.size(), orders_.data(), factors_.data(), powers_.data(), own_.data()},
-                {batch.sites.points.data(), batch.points.offsets.data(), batch.points.nodes.data(),
-                 weights.offsets.data(), weights.values.data()},
-                weights.values.size() >= least_streamed ? Output::streamed : Output::cached,
-                scratch_.data(),
-                done_.data()});
+    fit_taylor(
+        {gather(batch.sites, batch.sites.anchors.data(), batch.stencils.offsets.data(),
+                batch.stencils.nodes.data(), size, fit.weight),
+         fit.basis.degree(),
+         fit.limits.least_pivot,
+         fit.limits.condition,
+         fit.weight.is_one() ? nullptr : squared_.data(),
+         {batch.derivatives.size(), orders_.data(), factors_.data(), powers_.data(), own_.data()},
+         {batch.sites.points.data(), batch.points.offsets.data(), batch.points.nodes.data(),
+          weights.offsets.data(), weights.values.data()},
+         weights.values.size() >= least_streamed ? Output::streamed : Output::cached,
+         scratch_.data(),
+         done_.data()});
     for (std::size_t i = 0; i < part.size(); ++i) {
       if ((done_[i / lanes] >> (i % lanes) & 1U) != 0) outcomes[part[i].second] = LocalOutcome::ok;
     }
@@ -205,19 +207,14 @@ void TaylorBatch<Dim>::judge(const TaylorParts<Dim>& fit, const Sites<Dim>& site
     const int size = part.back().first;
     chosen_.clear();
     for (const auto& [ignored, place] : part) chosen_.push_back(place);
-    const StencilTable table{sites.nodes.data(),
-                             origins_.data(),
-                             stencils.offsets.data() + first,
-                             stencils.nodes.data(),
-                             chosen_.data(),
-                             static_cast<int>(chosen_.size()),
-                             size};
     const std::size_t padded = (part.size() + lanes - 1) / lanes * lanes;
     grow_to(scratch_, lanes * size);
     grow_to(one_, padded);
     grow_to(maximum_, padded);
-    judge_taylor({gather(sites, table, fit.weight), fit.basis.degree(), fit.limits.least_pivot,
-                  fit.limits.condition, fit.weight.is_one() ? nullptr : squared_.data(), factors_.data(), orders_.data(),
+    judge_taylor({gather(sites, origins_.data(), stencils.offsets.data() + first,
+                         stencils.nodes.data(), size, fit.weight),
+                  fit.basis.degree(), fit.limits.least_pivot, fit.limits.condition,
+                  fit.weight.is_one() ? nullptr : squared_.data(), factors_.data(), orders_.data(),
                   scratch_.data(), one_.data(), maximum_.data(), done_.data()});
     for (std::size_t i = 0; i < part.size(); ++i) {
       if ((done_[i / lanes] >> (i % lanes) & 1U) == 0) continue;

@@ -64,9 +64,10 @@ class TaylorBatch {
   template <class Treat>
   void each_part(Treat treat);
   void tabulate(const MonomialBasis<Dim>& basis, const Derivatives<Dim>& derivatives);
-  /// Gathers the stencils of `chosen_` and weighs their nodes.
-  GatherTask gather(const Sites<Dim>& sites, const StencilTable& table,
-                    const WeightFunction& weight);
+  /// Gathers the stencils of `chosen_`, of `size` nodes at most, and weighs their nodes; `anchors`,
+  /// `offsets` and `ids` are those of the table.
+  GatherTask gather(const Sites<Dim>& sites, const double* anchors, const std::int64_t* offsets,
+                    const int* ids, int size, const WeightFunction& weight);
   void weigh(const Sites<Dim>& sites, const GatherTask& task, const WeightFunction& weight);
 };
 

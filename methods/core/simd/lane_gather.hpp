@@ -58,12 +58,15 @@ template <int Dim, Padding padding>
                                                 int begin, int end, const Pack* origin,
                                                 const LaneStencils& group) {
   Pack largest = all(0);
+  const double* const places = table.nodes;
+  Pack* to = group.z + static_cast<long>(begin) * Dim;
+  Pack* const squares = group.rho;
   for (int j = begin; j < end; ++j) {
     const double* node[lanes];
 #pragma GCC unroll 8
     for (int lane = 0; lane < lanes; ++lane) {
       node[lane] = padding == Padding::none || j < nodes.counts[lane]
-                       ? table.nodes + static_cast<long>(nodes.ids[lane][j]) * Dim
+                       ? places + static_cast<long>(nodes.ids[lane][j]) * Dim
                        : table.anchors + static_cast<long>(group.anchors[lane]) * Dim;
     }
     Pack z[Dim];
@@ -72,12 +75,40 @@ template <int Dim, Padding padding>
     for (int c = 0; c < Dim; ++c) {
       z[c] = z[c] - origin[c];
       square = square + z[c] * z[c];
-      group.z[static_cast<long>(j) * Dim + c] = z[c];
+      *to++ = z[c];
     }
-    group.rho[j] = square;
+    squares[j] = square;
     largest = max(largest, square);
   }
   return largest;
+}
+
+/// Scales what `gather_nodes` found by the radius, and looks for nodes at one place.
+template <int Dim>
+[[gnu::always_inline]] inline void scale_nodes(int size, int least, Pack largest,
+                                               LaneStencils& group) {
+  const unsigned proper = less(all(0), largest);
+  group.radius = choose(proper, sqrt(largest), all(1));
+  const Pack inverse = all(1) / group.radius;
+  Pack* const z = group.z;
+  Pack* const rho = group.rho;
+  for (int i = 0; i < size * Dim; ++i) z[i] = z[i] * inverse;
+  const Pack sizes = group.size;
+  const Pack by_square = inverse * inverse;
+  Pack nearest = all(1);
+  Pack before = all(-1);
+  for (int j = 0; j < size; ++j) {
+    Pack square = rho[j] * by_square;
+    if (j >= least) square = choose(less(all(j), sizes), square, all(1));
+    nearest = min(nearest, square - before);
+    before = square;
+    rho[j] = square;
+  }
+  group.coincident = every_lane & ~proper;
+  // Nodes at one place are equally far away.
+  if (less(nearest, all(distinct_squares)) != 0) {
+    group.coincident |= coincident_lanes<Dim>(group, rho, size);
+  }
 }
 
 /// Gathers the stencils of anchors `first` and following of a table as `gather_lanes` does, but
@@ -98,33 +129,19 @@ void gather_squares(const StencilTable& table, int first, LaneStencils& group) {
     nodes.least = nodes.counts[lane] < nodes.least ? nodes.counts[lane] : nodes.least;
     anchor_place[lane] = table.anchors + static_cast<long>(anchor) * Dim;
   }
-  group.size = load(count);
+  // A load of what was stored in parts waits for all stores before it.
+  group.size = nodes.least == table.size ? all(table.size) : load(count);
   Pack origin[Dim];
   load_nodes<Dim>(anchor_place, origin);
+  fetch_ahead(anchor_place[0]);
+  fetch_ahead(anchor_place[lanes / 2]);
   Pack largest = gather_nodes<Dim, Padding::none>(table, nodes, 0, nodes.least, origin, group);
   if (nodes.least < table.size) {
     const Pack rest =
         gather_nodes<Dim, Padding::some>(table, nodes, nodes.least, table.size, origin, group);
     largest = max(largest, rest);
   }
-  const unsigned proper = less(all(0), largest);
-  group.radius = choose(proper, sqrt(largest), all(1));
-  const Pack inverse = all(1) / group.radius;
-  for (int i = 0; i < table.size * Dim; ++i) group.z[i] = group.z[i] * inverse;
-  Pack nearest = all(1);
-  Pack before = all(-1);
-  for (int j = 0; j < table.size; ++j) {
-    Pack square = group.rho[j] * inverse * inverse;
-    if (j >= nodes.least) square = choose(less(all(j), group.size), square, all(1));
-    nearest = min(nearest, square - before);
-    before = square;
-    group.rho[j] = square;
-  }
-  group.coincident = every_lane & ~proper;
-  // Nodes at one place are equally far away.
-  if (less(nearest, all(distinct_squares)) != 0) {
-    group.coincident |= coincident_lanes<Dim>(group, group.rho, table.size);
-  }
+  scale_nodes<Dim>(table.size, nodes.least, largest, group);
 }
 
 /// Gathers the stencils of anchors `first` and following of a table; `lanes` of them or what is

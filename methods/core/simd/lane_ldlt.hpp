@@ -7,6 +7,20 @@ namespace strongpoint::STRONGPOINT_SIMD_PATH {
 /// Place of entry (i, j), j <= i, of a lower triangle stored row after row.
 constexpr int triangle(int i, int j) { return i * (i + 1) / 2 + j; }
 
+/// Places of the entries of a symmetric matrix in its lower triangle.
+template <int Size>
+struct SymmetricPlaces {
+  int of[Size][Size] = {};
+
+  constexpr SymmetricPlaces() {
+    for (int i = 0; i < Size; ++i) {
+      for (int j = 0; j < Size; ++j) of[i][j] = i > j ? triangle(i, j) : triangle(j, i);
+    }
+  }
+};
+template <int Size>
+inline constexpr SymmetricPlaces<Size> symmetric_places{};
+
 /// LDL^T without pivoting of definite matrices, one a lane: their lower triangles, row after row,
 /// become L, and D^-1 on the diagonal. Returns the bits of the lanes in which every pivot is above
 /// `tolerance` times its diagonal entry.

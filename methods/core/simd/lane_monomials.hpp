@@ -107,7 +107,7 @@ template <int Dim, int Degree>
 }
 
 /// Sums that stay in registers at a time, beside the monomials.
-inline constexpr int sums_at_once = lanes == 8 ? 18 : 8;
+inline constexpr int sums_at_once = lanes == 8 ? 12 : 6;
 
 /// Fills sums Begin to End - 1 of the moment table, over nodes 1 to n - 1.
 template <int Dim, int Degree, int Begin, int End>
@@ -148,8 +148,7 @@ template <int Dim, int Degree, int Begin = 0>
 /// The moment matrix sum_j w_j b_j b_j^T (lower triangle, row after row) of nodes 1 to n - 1, where
 /// b holds the monomials.
 template <int Dim, int Degree>
-[[gnu::always_inline]] inline void sum_moments(const Pack* z, const Pack* w, int n,
-                                               Pack* moments) {
+[[gnu::always_inline]] inline void sum_moments(const Pack* z, const Pack* w, int n, Pack* moments) {
   using Table = MomentTable<Dim, Degree>;
   constexpr const Table& table = moment_table<Dim, Degree>;
   Pack sums[Table::size];

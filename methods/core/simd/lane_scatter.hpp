@@ -32,18 +32,48 @@ inline void scatter_lanes(const Pack* rows, int count, double* const* to, unsign
   }
 }
 
-/// Copies numbers that are not read again soon, past the caches: a line that is not read before it
-/// is written takes half the time.
-inline void stream_copy(const double* from, long count, double* to) {
+/// Copies numbers of eight bytes that are not read again soon, past the caches.
+template <class Number>
+void stream_copy(const Number* from, long count, Number* to) {
+  static_assert(sizeof(Number) == sizeof(double), "they are copied as packs of doubles");
   constexpr long line = 8;
-  const long past = static_cast<long>(reinterpret_cast<unsigned long>(to) / sizeof(double)) % line;
+  const auto past = static_cast<long>(reinterpret_cast<unsigned long>(to) / sizeof(Number)) % line;
   long i = 0;
-  for (const long head = past == 0 ? 0 : line - past; i < head && i < count; ++i) to[i] = from[i];
-  for (; i + line <= count; i += line) {
+  if constexpr (lanes > 1) {
+    for (const long head = past == 0 ? 0 : line - past; i < head && i < count; ++i) to[i] = from[i];
+    for (; i + line <= count; i += line) {
 #pragma GCC unroll 8
-    for (long part = 0; part < line; part += lanes) stream(to + i + part, load(from + i + part));
+      for (long part = 0; part < line; part += lanes) {
+        stream(reinterpret_cast<double*>(to + i + part),
+               load(reinterpret_cast<const double*>(from + i + part)));
+      }
+    }
   }
   for (; i < count; ++i) to[i] = from[i];
 }
+
+/// True when the lanes' results, of `count` numbers each, lie one after the other; `entries` are
+/// 0 in lanes without any.
+inline bool is_one_piece(int count, const int* entries, double* const* to) {
+  bool follows = true;
+  for (int lane = 0; lane < lanes; ++lane) {
+    follows =
+        follows && entries[lane] == count && to[lane] == to[0] + static_cast<long>(lane) * count;
+  }
+  return follows;
+}
+
+/// A piece of results that waits to be written past the caches: right after its making, its parts
+/// have not reached the first-level cache, and reading them would stall.
+struct Piece {
+  const double* from = nullptr;
+  double* to = nullptr;
+  long count = 0;
+
+  void write() {
+    stream_copy(from, count, to);
+    count = 0;
+  }
+};
 
 }  // namespace strongpoint::STRONGPOINT_SIMD_PATH

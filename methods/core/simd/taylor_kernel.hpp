@@ -1,6 +1,7 @@
 #pragma once
 
 #include "methods/core/simd/gather_kernel.hpp"
+#include "methods/core/simd/output.hpp"
 
 namespace strongpoint {
 
@@ -22,23 +23,17 @@ struct PointTable {
   double* values;               ///< (D * entries) the weights
 };
 
-/// How results are stored.
-enum class Output {
-  cached,
-  streamed  ///< past the caches, where they lie in one piece
-};
-
 /// Taylor fits whose nodes have been gathered: the centre comes first in each stencil.
 struct TaylorTask {
   GatherTask gathered;
   int order;               ///< highest degree of the monomials
   double least_pivot;      ///< over its diagonal entry
   double condition_limit;  ///< in the 1-norm of the moment matrix
-  const double* squared;  ///< (lane, n, group) T^2, null for ones; those of centre and padding
-                          ///< are not read
+  const double* squared;   ///< (lane, n, group) T^2, null for ones; those of centre and padding
+                           ///< are not read
   DerivativeTable derivatives;
   PointTable points;
-  Output output;
+  Output output;    ///< how weights are stored where rows lie in one piece
   double* scratch;  ///< at a cache line, taylor_scratch numbers
   unsigned* done;   ///< (group) bits of the lanes whose weights were written
 };

@@ -1,0 +1,298 @@
+#pragma once
+
+#include "methods/core/simd/lane_gather.hpp"
+#include "methods/core/simd/lane_ldlt.hpp"
+#include "methods/core/simd/lane_monomials.hpp"
+#include "methods/core/simd/lane_scatter.hpp"
+#include "methods/core/simd/lane_weights.hpp"
+#include "methods/core/simd/taylor_kernel.hpp"
+
+namespace strongpoint::STRONGPOINT_SIMD_PATH {
+
+/// The condition up to which eleven digits and more are left without refinement.
+inline constexpr double largest_unrefined = 1e3;
+
+/// Derivatives whose weights are found together: their solutions share each node's monomials.
+template <int Terms>
+inline constexpr int derivatives_at_once = Terms <= 5 ? 5 : (Terms <= 9 ? 3 : 1);
+
+/// One group of anchors on its way.
+template <int Dim, int Order>
+class TaylorGroup {
+ public:
+  static constexpr int terms = monomials_up_to<Dim>(Order);
+
+  TaylorGroup(const TaylorTask& task, int first, Piece& waiting)
+      : task_(task),
+        table_(task.gathered.table),
+        waiting_(waiting),
+        size_(table_.size),
+        count_(task.derivatives.count),
+        first_(first) {
+    const long place = first / lanes;
+    z_ = reinterpret_cast<const Pack*>(task.gathered.z) + place * size_ * Dim;
+    radius_ = load(task.gathered.radius + first);
+    w_ = reinterpret_cast<Pack*>(task.scratch);
+    rows_ = w_ + size_;
+    piece_ = rows_ + static_cast<long>(size_) * count_;
+    right_sides_ = piece_ + static_cast<long>(size_) * count_;
+    solutions_ = right_sides_ + static_cast<long>(terms) * count_;
+    mask_weights(table_, first, squares_of(task.squared, place * size_), w_);
+  }
+
+  /// Bits of the lanes whose weights were written.
+  unsigned run() {
+    unsigned good = factorise() & ~task_.gathered.faulty[first_ / lanes];
+    for (int lane = table_.count - first_; lane < lanes; ++lane) good &= ~(1U << lane);
+    if (good == 0) return 0;
+    scale_orders();
+    long most = 0;
+    for (int lane = 0; lane < lanes; ++lane) {
+      if ((good >> lane & 1U) != 0) most = points_of(lane) > most ? points_of(lane) : most;
+    }
+    unsigned failed = 0;
+    for (long p = 0; p < most; ++p) {
+      unsigned served = good;
+      for (int lane = 0; lane < lanes; ++lane) {
+        if (points_of(lane) <= p) served &= ~(1U << lane);
+      }
+      failed |= serve(p, served);
+    }
+    return good & ~failed;
+  }
+
+ private:
+  static constexpr int highest_order = Order;
+
+  Pack inverse_[terms * (terms + 1) / 2];
+  Pack order_factor_[highest_order + 1];  ///< R^-order
+  Pack radius_;
+  const TaylorTask& task_;
+  const StencilTable& table_;
+  Piece& waiting_;
+  const Pack* z_;
+  Pack* w_;            ///< (n) T^2, 0 at the centre and in padding
+  Pack* rows_;         ///< (D, n) weights
+  Pack* piece_;        ///< the same, lane after lane
+  Pack* right_sides_;  ///< (terms, D)
+  Pack* solutions_;    ///< (terms, D)
+  int size_;
+  int count_;  ///< D
+  int first_;
+  unsigned delicate_ = 0;  ///< lanes whose solutions are refined
+
+  int anchor(int lane) const {
+    return table_.chosen[first_ + lane < table_.count ? first_ + lane : table_.count - 1];
+  }
+  long points_of(int lane) const {
+    const std::int64_t* const offsets = task_.points.offsets + anchor(lane);
+    return offsets[1] - offsets[0];
+  }
+
+  /// Bits of the lanes whose moment matrices are well conditioned.
+  unsigned factorise() {
+    Pack moments[terms * (terms + 1) / 2];
+    sum_moments<Dim, Order>(z_, w_, size_, moments);
+    const Pack norm = norm_of_symmetric<terms>(moments);
+    const unsigned good = factorise_ldlt<terms>(moments, task_.least_pivot);
+    invert_ldlt<terms>(moments, inverse_);
+    const Pack condition = norm * norm_of_symmetric<terms>(inverse_);
+    delicate_ = less(all(largest_unrefined), condition);
+    return good & less(condition, all(task_.condition_limit));
+  }
+
+  void scale_orders() {
+    const Pack inverse = all(1) / radius_;
+    order_factor_[0] = all(1);
+    for (int q = 1; q <= highest_order; ++q) order_factor_[q] = order_factor_[q - 1] * inverse;
+  }
+
+  Pack inverse_entry(int i, int j) const { return inverse_[symmetric_places<terms>.of[i][j]]; }
+
+  /// The p-th point of each lane, relative to the anchor and over R. Lanes without one get their
+  /// last.
+  void find_point(long p, Pack* at) const {
+    const double* place[lanes];
+    const double* origin[lanes];
+    for (int lane = 0; lane < lanes; ++lane) {
+      const int a = anchor(lane);
+      const long count = points_of(lane);
+      const std::int64_t list = task_.points.offsets[a];
+      origin[lane] = table_.anchors + static_cast<long>(a) * Dim;
+      place[lane] =
+          count == 0
+              ? origin[lane]
+              : task_.points.points +
+                    static_cast<long>(task_.points.ids[list + (p < count ? p : count - 1)]) * Dim;
+    }
+    Pack from[Dim];
+    load_nodes<Dim>(place, at);
+    fetch_ahead(place[0]);
+    fetch_ahead(place[lanes / 2]);
+    load_nodes<Dim>(origin, from);
+    for (int c = 0; c < Dim; ++c) at[c] = (at[c] - from[c]) * order_factor_[1];
+  }
+
+  /// Fills right-hand sides and solutions.
+  void solve(const Pack* at) {
+    Pack farthest = all(0);
+    for (int c = 0; c < Dim; ++c) farthest = max(farthest, abs(at[c]));
+    if (less(all(0), farthest) == 0) return solve_at_anchor();
+    Pack monomials[terms + 1];
+    monomials[0] = all(1);
+    evaluate_monomials<Dim, Order>(at, monomials + 1);
+    for (int d = 0; d < count_; ++d) {
+      const double* const factors = task_.derivatives.factors + static_cast<long>(d) * terms;
+      const int* const powers = task_.derivatives.powers + static_cast<long>(d) * terms;
+      const Pack scale = order_factor_[task_.derivatives.order[d]];
+      Pack* const right_side = right_sides_ + static_cast<long>(d) * terms;
+      for (int a = 0; a < terms; ++a) {
+        right_side[a] =
+            factors[a] == 0 ? all(0) : all(factors[a]) * monomials[powers[a] + 1] * scale;
+      }
+      by_inverse(right_side, solutions_ + static_cast<long>(d) * terms);
+    }
+  }
+
+  /// The same where all but one of the terms of a derivative vanish.
+  void solve_at_anchor() {
+    for (int d = 0; d < count_; ++d) {
+      Pack* const right_side = right_sides_ + static_cast<long>(d) * terms;
+      Pack* const solution = solutions_ + static_cast<long>(d) * terms;
+      const int own = task_.derivatives.own[d];
+      for (int a = 0; a < terms; ++a) right_side[a] = all(0);
+      for (int a = 0; own < 0 && a < terms; ++a) solution[a] = all(0);
+      if (own < 0) continue;
+      right_side[own] = all(task_.derivatives.factors[static_cast<long>(d) * terms + own]) *
+                        order_factor_[task_.derivatives.order[d]];
+#pragma GCC unroll 64
+      for (int a = 0; a < terms; ++a) {
+        solution[a] = all(0) + inverse_entry(a, own) * right_side[own];
+      }
+    }
+  }
+
+  /// The inverse times a right-hand side.
+  void by_inverse(const Pack* right_side, Pack* solution) const {
+    for (int i = 0; i < terms; ++i) solution[i] = all(0);
+    for (int a = 0; a < terms; ++a) {
+      for (int i = 0; i < terms; ++i) {
+        solution[i] = solution[i] + inverse_entry(i, a) * right_side[a];
+      }
+    }
+  }
+
+  Pack& weight(int d, int j) { return rows_[static_cast<long>(j) * count_ + d]; }
+  Pack at_centre(int d) const { return task_.derivatives.order[d] == 0 ? all(1) : all(0); }
+
+  /// Fills the rows of some derivatives from their solutions.
+  template <int Count>
+  void weigh(int first) {
+    Pack solution[Count][terms];
+    Pack centre[Count];
+    for (int d = 0; d < Count; ++d) {
+      centre[d] = at_centre(first + d);
+      for (int a = 0; a < terms; ++a) {
+        solution[d][a] = solutions_[static_cast<long>(first + d) * terms + a];
+      }
+    }
+    for (int j = 1; j < size_; ++j) {
+      Pack basis[terms];
+      evaluate_monomials<Dim, Order>(z_ + static_cast<long>(j) * Dim, basis);
+      const Pack w = w_[j];
+#pragma GCC unroll 8
+      for (int d = 0; d < Count; ++d) {
+        Pack sum = basis[0] * solution[d][0];
+#pragma GCC unroll 64
+        for (int a = 1; a < terms; ++a) sum = sum + basis[a] * solution[d][a];
+        sum = sum * w;
+        weight(first + d, j) = sum;
+        centre[d] = centre[d] - sum;
+      }
+    }
+    for (int d = 0; d < Count; ++d) rows_[first + d] = centre[d];
+  }
+
+  /// The same for as many of them as are left.
+  template <int Count = derivatives_at_once<terms>>
+  void weigh_some(int first, int count) {
+    if constexpr (Count > 1) {
+      if (count < Count) return weigh_some<Count - 1>(first, count);
+    }
+    weigh<Count>(first);
+  }
+
+  /// Corrects a row by what it leaves of the right-hand side; neither the rounding of the moment
+  /// matrix nor that of the row counts any longer. Source: Bjorck 1987 (corrected seminormal
+  /// equations).
+  void refine(int d) {
+    Pack residual[terms];
+    Pack correction[terms];
+    Pack basis[terms];
+    for (int a = 0; a < terms; ++a) residual[a] = right_sides_[static_cast<long>(d) * terms + a];
+    for (int j = 1; j < size_; ++j) {
+      evaluate_monomials<Dim, Order>(z_ + static_cast<long>(j) * Dim, basis);
+      for (int a = 0; a < terms; ++a) residual[a] = residual[a] - basis[a] * weight(d, j);
+    }
+    by_inverse(residual, correction);
+    Pack centre = at_centre(d);
+    for (int j = 1; j < size_; ++j) {
+      evaluate_monomials<Dim, Order>(z_ + static_cast<long>(j) * Dim, basis);
+      Pack sum = basis[0] * correction[0];
+      for (int a = 1; a < terms; ++a) sum = sum + basis[a] * correction[a];
+      weight(d, j) = weight(d, j) + choose(delicate_, sum * w_[j], all(0));
+      centre = centre - weight(d, j);
+    }
+    rows_[d] = centre;
+  }
+
+  /// Writes the weights of the p-th point of some lanes; returns the lanes in which they are not
+  /// finite.
+  unsigned serve(long p, unsigned served) {
+    constexpr int most = derivatives_at_once<terms>;
+    Pack at[Dim];
+    find_point(p, at);
+    solve(at);
+    for (int d = 0; d < count_; d += most) weigh_some(d, count_ - d < most ? count_ - d : most);
+    for (int d = 0; delicate_ != 0 && d < count_; ++d) refine(d);
+    Pack check = all(0);  // not a number if any weight is not finite
+    for (int d = 0; d < count_; ++d) check = check + rows_[d] * all(0);
+    const unsigned finite = less(check, all(1));
+    write(p, served & finite);
+    return served & ~finite;
+  }
+
+  void write(long p, unsigned served) {
+    double* to[lanes];
+    int entries[lanes];
+    int least = size_ * count_;  // entries that all rows have
+    for (int lane = 0; lane < lanes; ++lane) {
+      to[lane] = nullptr;
+      entries[lane] = 0;
+      if ((served >> lane & 1U) == 0) continue;
+      const int point = task_.points.ids[task_.points.offsets[anchor(lane)] + p];
+      const std::int64_t* const rows = task_.points.rows + point;
+      to[lane] = task_.points.values + rows[0] * count_;
+      entries[lane] = static_cast<int>(rows[1] - rows[0]) * count_;
+      least = entries[lane] < least ? entries[lane] : least;
+    }
+    if (task_.output == Output::streamed && is_one_piece(least, entries, to)) {
+      waiting_.write();
+      double* const piece = reinterpret_cast<double*>(piece_);
+      double* parts[lanes];
+      for (int lane = 0; lane < lanes; ++lane)
+        parts[lane] = piece + static_cast<long>(lane) * least;
+      scatter_lanes(rows_, least, parts, every_lane);
+      waiting_ = {piece, to[0], static_cast<long>(lanes) * least};
+      return;
+    }
+    scatter_lanes(rows_, least, to, served);
+    for (int lane = 0; lane < lanes; ++lane) {
+      if (entries[lane] <= least) continue;
+      to[lane] += least;
+      scatter_lanes(rows_ + least, entries[lane] - least, to, 1U << lane);
+    }
+  }
+};
+
+}  // namespace strongpoint::STRONGPOINT_SIMD_PATH

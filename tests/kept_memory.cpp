@@ -1,0 +1,44 @@
+#include "methods/core/kept_memory.hpp"
+
+#include <cstdint>
+
+#include <gtest/gtest.h>
+
+#include "methods/core/large_array.hpp"
+
+namespace strongpoint {
+namespace {
+
+constexpr std::size_t bytes = std::size_t{1} << 24;
+
+TEST(KeptMemory, IsTakenAgainByArraysOfTheSameSize) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "nothing is kept where every access is checked";
+#endif
+  release_kept_memory();
+  void* const first = allocate_large(bytes);
+  free_large(first);
+  void* const again = allocate_large(bytes);
+  EXPECT_EQ(first, again);
+  void* const other = allocate_large(bytes);
+  EXPECT_NE(again, other);
+  free_large(again);
+  free_large(other);
+  release_kept_memory();
+}
+
+TEST(KeptMemory, HoldsWhatIsWrittenWhateverTheSizes) {
+  LargeArray<std::int64_t> numbers;
+  for (std::int64_t i = 0; i < 5000000; ++i) numbers.push_back(i);  // grows through many blocks
+  const LargeArray<std::int64_t> copy = numbers;
+  numbers.clear();
+  numbers.shrink_to_fit();
+  release_kept_memory();
+  std::int64_t others = 0;
+  for (std::size_t i = 0; i < copy.size(); ++i)
+    others += copy[i] == static_cast<std::int64_t>(i) ? 0 : 1;
+  EXPECT_EQ(others, 0);
+}
+
+}  // namespace
+}  // namespace strongpoint
