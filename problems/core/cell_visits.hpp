@@ -16,7 +16,7 @@ namespace strongpoint {
 /// Neighbours tried first and second, by dimension, the node included: settling a cell takes all
 /// nodes within twice its radius, some three times as many as it has faces. What is left open then
 /// is searched by its own radius, which costs several times as much.
-inline constexpr int first_neighbours[][2] = {{0, 0}, {6, 12}, {20, 40}, {64, 96}};
+inline constexpr int first_neighbours[][2] = {{0, 0}, {6, 12}, {24, 48}, {64, 96}};
 
 /// Cells made between two searches: bounds the memory of their neighbour lists.
 inline constexpr std::size_t cell_batch_size = 32768;

@@ -7,6 +7,14 @@ namespace {
 
 constexpr double infinity = __builtin_inf();
 
+/// Places up to which neighbours are looked at before asking which others can matter, and how many
+/// are then looked at at a time.
+constexpr int first_look = 13;
+constexpr int next_look = 4;
+
+/// More than the round-off of a squared distance.
+constexpr double slack = 1 + 1e-12;
+
 /// Positions relative to their nodes, a node a lane.
 struct Arms {
   Pack x[most_ring_neighbours];
@@ -48,33 +56,65 @@ void gather(const RingTask& task, int first, Arms& arms) {
   }
 }
 
-/// Follows the bisector of the arm (ax, ay) counter-clockwise to the nearest crossing. The bisector
-/// is a/2 + t/2 (-ay, ax); that of b crosses it at t = b.(b - a) / (a x b), from inside where the
-/// cross product is positive. Not finite where none does.
-Corner next_corner(const Arms& arms, int size, Pack ax, Pack ay) {
-  const Pack none = all(infinity);
-  const Pack one = all(1);
+/// The nearest crossings found, t as a quotient.
+struct Nearest {
+  Pack above, below, place;
+};
+
+/// Takes a crossing that is nearer; `its_above` is infinite where there is none.
+inline void compare(Pack its_above, Pack its_below, Pack its_place, Nearest& nearest) {
+  const unsigned nearer = less(its_above * nearest.below, nearest.above * its_below);
+  nearest.above = choose(nearer, its_above, nearest.above);
+  nearest.below = choose(nearer, its_below, nearest.below);
+  nearest.place = choose(nearer, its_place, nearest.place);
+}
+
+/// Looks at the bisector of arm j.
+inline void look(const Arms& arms, int j, Pack ax, Pack ay, Pack place, Nearest& nearest) {
+  const Pack bx = arms.x[j];
+  const Pack by = arms.y[j];
+  const Pack x = bx - ax;
+  const Pack y = by - ay;
+  // a x (b - a): exactly zero for a itself, which fused products of a x b are not.
+  const Pack cross = ax * y - ay * x;
+  const Pack crosses = choose(less(all(0), cross), bx * x + by * y, all(infinity));
+  compare(crosses, cross, place, nearest);
+}
+
+/// Follows the bisector of the arm (ax, ay) counter-clockwise from a point of the cell, whose
+/// square is given, to the nearest crossing. The bisector is a/2 + t/2 (-ay, ax); that of b crosses
+/// it at t = b.(b - a) / (a x b), from inside where the cross product is positive. Not finite where
+/// none does. Only the lanes in `on` count.
+inline Corner next_corner(const Arms& arms, int size, Pack ax, Pack ay, Pack from_squared,
+                          unsigned on) {
+  // Two of them: each waits for itself only.
+  Nearest nearest{all(infinity), all(1), all(0)}, odd = nearest;
   Corner corner{all(0), all(0), all(0)};
-  Pack above = none;
-  Pack below = one;
-  Pack place = one;
-  for (int j = 1; j < size; ++j) {
-    const Pack bx = arms.x[j];
-    const Pack by = arms.y[j];
-    const Pack x = bx - ax;
-    const Pack y = by - ay;
-    // a x (b - a): exactly zero for a itself, which fused products of a x b are not.
-    const Pack cross = ax * y - ay * x;
-    const Pack crosses = choose(less(all(0), cross), bx * x + by * y, none);
-    const unsigned nearer = less(crosses * below, above * cross);
-    above = choose(nearer, crosses, above);
-    below = choose(nearer, cross, below);
-    corner.next = choose(nearer, place, corner.next);
-    place = place + one;
+  Pack place = all(1);
+  for (int j = 1, end = first_look; j < size; end += next_look) {
+    end = end < size ? end : size;
+    for (; j + 1 < end; j += 2) {
+      look(arms, j, ax, ay, place, nearest);
+      look(arms, j + 1, ax, ay, place + all(1), odd);
+      place = place + all(2);
+    }
+    if (j < end) {
+      look(arms, j++, ax, ay, place, nearest);
+      place = place + all(1);
+    }
+    compare(odd.above, odd.below, odd.place, nearest);
+    const Pack t = nearest.above / nearest.below;
+    corner.x = all(0.5) * (ax - t * ay);
+    corner.y = all(0.5) * (ay + t * ax);
+    if (j >= size) break;
+    // A bisector that passes between the two ends is at most as far away as the farther of them.
+    const Pack square =
+        choose(less(t, all(infinity)), corner.x * corner.x + corner.y * corner.y, all(infinity));
+    const Pack limit = all(4 * slack) * max(from_squared, square);
+    const Pack x = arms.x[j], y = arms.y[j];
+    if ((less(x * x + y * y, limit) & on) == 0) break;
   }
-  const Pack t = above / below;
-  corner.x = all(0.5) * (ax - t * ay);
-  corner.y = all(0.5) * (ay + t * ax);
+  corner.next = nearest.place;
   return corner;
 }
 
@@ -120,15 +160,17 @@ void walk_around(const RingTask& task, int first, const Arms& arms) {
   // Lanes whose nearest node is at their own place never start.
   unsigned bounded = less(all(0), ax * ax + ay * ay);
   unsigned on = bounded;
+  Pack from_squared = all(0.25) * (ax * ax + ay * ay);
   for (int step = 0; step < most_ring_corners && on != 0; ++step) {
-    const Corner corner = next_corner(arms, task.size, ax, ay);
+    const Corner corner = next_corner(arms, task.size, ax, ay, from_squared, on);
     if (step == 0) {
       first_x = corner.x;
       first_y = corner.y;
     } else {
       twice_area = choose(on, twice_area + (last_x * corner.y - last_y * corner.x), twice_area);
     }
-    farthest = choose(on, max(farthest, corner.x * corner.x + corner.y * corner.y), farthest);
+    from_squared = corner.x * corner.x + corner.y * corner.y;
+    farthest = choose(on, max(farthest, from_squared), farthest);
     bounded &= less(farthest, all(infinity));
     if (task.ring_sizes != nullptr) keep_corner(task, first, step, on, corner);
     last_x = choose(on, corner.x, last_x);
