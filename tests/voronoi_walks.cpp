@@ -133,7 +133,9 @@ TEST(VoronoiWalks, TellCellsWithoutAnEndAndNodesInOnePlace) {
 TEST(VoronoiWalks, NeverGiveAWrongCellOfALattice) {
   // All distances tie and eight cells meet in each corner: a walk may fail, not err.
   Points<3> nodes(3, 6 * 6 * 6);
-  for (int i = 0; i < nodes.cols(); ++i) nodes.col(i) << i % 6, i / 6 % 6, i / 36;
+  for (int i = 0; i < nodes.cols(); ++i) {
+    for (int c = 0, rest = i; c < 3; ++c, rest /= 6) nodes(c, i) = rest % 6;
+  }
   for (double turn : {0.0, 0.3}) {
     const Eigen::Matrix3d turned =
         Eigen::AngleAxisd(turn, Point<3>(1, 2, 3).normalized()).toRotationMatrix();

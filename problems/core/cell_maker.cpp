@@ -77,7 +77,7 @@ struct WholeCell {
 
   double farthest_squared() const { return strongpoint::farthest_squared(cell); }
   int size() const { return static_cast<int>(cell.vertices().size()); }
-  const Point<Dim>& vertex(int v) const { return cell.vertices()[v]; }
+  Point<Dim> vertex(int v) const { return cell.vertices()[v]; }
   bool clip(const Point<Dim>& normal, double offset, int label) {
     return cell.clip(normal, offset, label) == Clip::cut;
   }
