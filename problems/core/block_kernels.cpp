@@ -3,14 +3,22 @@
 namespace strongpoint {
 namespace {
 
-/// Four numbers side by side, anywhere in memory. The last lanes of a block of three columns hold
-/// what follows it and are never stored.
-using Four = float __attribute__((vector_size(16), aligned(4)));
-using Two = double __attribute__((vector_size(16), aligned(8)));
+/// Four numbers side by side. The last lanes of a block of three columns hold what follows it and
+/// are never stored.
+using Four = float __attribute__((vector_size(16)));
+using Two = double __attribute__((vector_size(16)));
 
-Four load(const float* from) { return *reinterpret_cast<const Four*>(from); }
+/// Numbers from anywhere in memory: a copy, as not all compilers let a vector be read through a
+/// pointer with less than its alignment.
+template <class Vector, class Real>
+Vector copied(const Real* from) {
+  Vector vector;
+  __builtin_memcpy(&vector, from, sizeof(Vector));
+  return vector;
+}
+Four load(const float* from) { return copied<Four>(from); }
 Four spread(float x) { return Four{x, x, x, x}; }
-Two load(const double* from) { return *reinterpret_cast<const Two*>(from); }
+Two load(const double* from) { return copied<Two>(from); }
 Two spread(double x) { return Two{x, x}; }
 
 /// The sum of blocks times parts of x for one block row; two sums by turns hide the latency.
