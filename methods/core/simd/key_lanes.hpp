@@ -201,7 +201,8 @@ inline unsigned less_keys(Keys a, Keys b) { return a < b ? 1 : 0; }
 inline Keys subtract(Keys a, Keys b) { return a - b; }
 template <int Shift>
 Keys keys_of(Floats a, int first) {
-  return static_cast<int>(a) << Shift | first;
+  // Lanes that are not used hold what was left there, maybe too large for an integer.
+  return static_cast<int>(a < 0x1p30F ? a : 0) << Shift | first;
 }
 inline Keys first_lanes(int count, Keys a, Keys b) { return count > 0 ? a : b; }
 template <int Bits>
