@@ -47,13 +47,21 @@ function(strongpoint_simd_sources target)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # its own headers begin with undefined registers (GCC bug 105593)
     list(APPEND flags_of_avx512 -Wno-uninitialized -Wno-maybe-uninitialized)
   endif()
+  set(flags_of_compiler -ffp-contract=fast)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    # Its `fast` contracts across statements as far as it inlined, so that bits would depend on how many derivatives
+    # are asked for. Unrolled and instrumented, a kernel would take it minutes.
+    set(flags_of_compiler -ffp-contract=on -Wno-pass-failed
+                          "$<$<CONFIG:Debug>:SHELL:-mllvm -pragma-unroll-threshold=0>")
+  endif()
   foreach(path IN LISTS paths)
     set(name ${target}_${path})
     add_library(${name} OBJECT ${ARGN})
     target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR})
     target_compile_features(${name} PRIVATE cxx_std_20)
     strongpoint_options(${name})
-    target_compile_options(${name} PRIVATE ${flags_of_${path}} -ffp-contract=fast -fno-math-errno)
+    target_compile_options(${name} PRIVATE ${flags_of_${path}} ${flags_of_compiler}
+                           -fno-math-errno)
     set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:${name}>)
   endforeach()
