@@ -85,7 +85,7 @@ LinearSolution solve_by_default(const LinearSystem& system) {
 struct SolveGoal {
   SolveCase subject;
   Goal time;
-  double memory = 1;  ///< rival's memory over ours that has to be reached
+  double memory = 1;  ///< rival's memory over ours that has to be reached, 0 for no such goal
   std::function<LinearSolution(const LinearSystem&)> rival;
   int repeats = 3;
 };
@@ -106,7 +106,7 @@ void compare_memory(benchmark::State& state, const SolveGoal& goal) {
                              goal.subject.solver, ours.solver));
 }
 
-/// Registers both goals.
+/// Registers the goals of time and memory.
 void add_solve_goal(const SolveGoal& goal, bool& failed) {
   add_goal(goal.time, failed, [goal] {
     const auto known = std::make_shared<const KnownSystem>(assembled(goal.subject));
@@ -121,6 +121,7 @@ void add_solve_goal(const SolveGoal& goal, bool& failed) {
                     goal.subject.solver, checked.solver, known->system.unknowns()),
         goal.repeats};
   });
+  if (goal.memory == 0) return;
   benchmark::RegisterBenchmark(("goal/" + goal.time.name + "/memory").c_str(),
                                [goal, &failed](benchmark::State& state) {
                                  run_guarded(state, failed, [&] { compare_memory(state, goal); });
@@ -129,7 +130,8 @@ void add_solve_goal(const SolveGoal& goal, bool& failed) {
       ->UseManualTime();
 }
 
-/// The goals: the square of 321^2 nodes and the cube of 31^3, tractions on the upper faces.
+/// The goals: squares of 321^2 nodes and, with wide stencils, 41^2, the cube of 31^3; tractions on
+/// the upper faces.
 void add_goals(bool& failed) {
   ElasticChoices square{.level = 321};
   square.stencil = "nearest[k=15]";
@@ -138,6 +140,13 @@ void add_goals(bool& failed) {
                   1 / 0.25,
                   solve_by_default,
                   3},
+                 failed);
+  ElasticChoices wide{.level = 41, .method = "rbf_fd[phs=5,degree=6]", .stencil = "nearest[k=45]"};
+  add_solve_goal({{"frontal", 2, wide},
+                  {"solve/wide_stencils_2d", "UMFPACK defaults", 2.5, 4},
+                  0,
+                  solve_by_default,
+                  5},
                  failed);
   const auto by_mumps = [](const LinearSystem& system) { return solve(system, "mumps"); };
   add_solve_goal({{"auto", 3, {.level = 31}},
