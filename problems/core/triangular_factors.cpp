@@ -1,5 +1,6 @@
 #include "problems/core/triangular_factors.hpp"
 
+#include <cstring>
 #include <new>
 
 #include <umfpack.h>
@@ -40,10 +41,15 @@ Compressed transposed(const Compressed& from) {
   return to;
 }
 
-/// Two numbers side by side, anywhere in memory.
-using Two = double __attribute__((vector_size(16), aligned(8)));
+/// Two numbers side by side.
+using Two = double __attribute__((vector_size(16)));
 
-Two load(const double* from) { return *reinterpret_cast<const Two*>(from); }
+/// From anywhere in memory.
+Two load(const double* from) {
+  Two numbers;
+  std::memcpy(&numbers, from, sizeof(Two));
+  return numbers;
+}
 
 }  // namespace
 
