@@ -50,6 +50,7 @@ RowMatrix rows_of(const LinearSystem& system, const std::vector<int>& rows,
                   const std::vector<int>& places, const Factor& factor) {
   RowMatrix result(static_cast<Eigen::Index>(rows.size()),
                    static_cast<Eigen::Index>(places.size()));
+  if (rows.empty()) return result;
   std::vector<int> entries(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     entries[i] = static_cast<int>(system.offsets[rows[i] + 1] - system.offsets[rows[i]]);
@@ -210,7 +211,12 @@ class CondensedMotion::Shifted final : public ShiftedMotion {
     RowMatrix values = blocks.values;
     if (!blocks.has_values()) {
       values.resize(top.rows(), top.cols());
-      values.setIdentity();
+      values.reserve(top.rows());
+      for (Eigen::Index row = 0; row < top.rows(); ++row) {
+        values.startVec(row);
+        values.insertBack(row, row) = 1;
+      }
+      values.finalize();
     }
     top += values;
     factored_.matrix = stacked(top, blocks.constraints);

@@ -57,7 +57,7 @@ std::string payload_of(const MotionState& state, std::span<const std::byte> memo
 
 /// Takes bytes off the front of a text that is long enough.
 void take(std::string_view& text, void* bytes, std::size_t count) {
-  std::memcpy(bytes, text.data(), count);
+  if (count > 0) std::memcpy(bytes, text.data(), count);  // nothing has no address
   text.remove_prefix(count);
 }
 
