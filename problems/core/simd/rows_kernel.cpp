@@ -1,6 +1,7 @@
 #include "problems/core/simd/rows_kernel.hpp"
 
 #include "methods/core/simd/lane_scatter.hpp"
+#include "problems/core/simd/few_nodes.hpp"
 
 namespace strongpoint::STRONGPOINT_SIMD_PATH {
 namespace {
@@ -14,9 +15,6 @@ using Ids = int __attribute__((vector_size(ids_at_once * sizeof(int)), may_alias
 
 /// Larger than any node's id.
 constexpr int beyond = 0x7fffffff;
-
-/// Largest finite number.
-constexpr double most = __DBL_MAX__;
 
 constexpr int padded(int count, int unit) { return (count + unit - 1) / unit * unit; }
 
@@ -58,8 +56,8 @@ inline void rank_nodes(const int* nodes, int count, int* rank) {
 struct Made {
   static constexpr int room = 1024;
 
-  alignas(64) double values[room];
-  alignas(64) std::int64_t columns[room];
+  alignas(64) double values[room + few_nodes];  // some are written in packs
+  alignas(64) std::int64_t columns[room + few_nodes];
   std::int64_t begin = 0;  ///< where they go
   int count = 0;
 
@@ -90,16 +88,11 @@ struct Buffers {
   alignas(64) double sums[most_kernel_nodes][width];
   double entries_of_one[most_kernel_nodes];  ///< of one field
   const int* nodes;                          ///< of the same
+  FewNodes few;                              ///< the same, of few nodes
+  bool is_few;
   double scales[Fields];
   Made made;
 };
-
-/// 1 / largest magnitude, 0 where all are zero or one is not finite.
-inline double scale_of(double largest, double total) {
-  // A sum of magnitudes is finite when they are, but for overflow.
-  const double scale = 1 / largest;
-  return largest > 0 && total <= most && scale <= most ? scale : 0;
-}
 
 /// Sums of all rows at the nodes, put where the nodes belong: a node's derivatives times the
 /// coefficients. Weights are read as they lie in memory.
@@ -157,6 +150,7 @@ bool are_same(const std::int64_t* a, const std::int64_t* b, int count) {
 template <int Fields>
 struct PointRows {
   static void find(const RowsTask& task, std::int64_t first, int count, Buffers<Fields>& work) {
+    rank_nodes(task.nodes + first, count, work.rank);
     add_up<Fields>(task, first, count, work);
     find_scales<Fields>(count, work);
     for (int j = 0; j < count; ++j) {
@@ -216,6 +210,13 @@ struct PointRows<1> {
   }
   static void find(const RowsTask& task, std::int64_t first, int count, Buffers<1>& work) {
     work.nodes = task.nodes + first;
+    work.is_few = task.derivatives == 2 && count <= few_nodes && work.few.sort(work.nodes, count);
+    if (work.is_few) {
+      work.few.add_up(task.weights + 2 * first, count, work.coefficients[0], work.coefficients[1]);
+      work.scales[0] = scale_of(work.few.largest(), 0);
+      return;
+    }
+    rank_nodes(work.nodes, count, work.rank);
     if (task.derivatives == 2) return add_up<2>(task, first, count, work);
     if (task.derivatives == 3) return add_up<3>(task, first, count, work);
     add_up<0>(task, first, count, work);
@@ -223,6 +224,7 @@ struct PointRows<1> {
   static void put(int count, int, double scale, Buffers<1>& work) {
     double* const values = work.made.values + work.made.count;
     std::int64_t* const columns = work.made.columns + work.made.count;
+    if (work.is_few) return work.few.put(scale, values, columns);
     for (int j = 0; j < count; ++j) {
       const int place = work.rank[j];
       values[place] = work.entries_of_one[j] * scale;
@@ -241,7 +243,6 @@ int make_rows_with(const RowsTask& task, Buffers<Fields>& work) {
     const int point = task.points[i];
     const std::int64_t first = task.weight_offsets[point];
     const int count = static_cast<int>(task.weight_offsets[point + 1] - first);
-    rank_nodes(task.nodes + first, count, work.rank);
     PointRows<Fields>::find(task, first, count, work);
     const int length = count * Fields;
     if (made.count + length * Fields > Made::room) made.write(task);
