@@ -83,15 +83,15 @@ struct Buffers {
   static constexpr int width = padded(entries, lanes);
 
   alignas(64) int rank[most_kernel_nodes];
+  FewNodes few;  ///< of one field, instead of ranks and sums
   alignas(64) double coefficients[most_kernel_derivatives][width];
   alignas(64) std::int64_t columns[most_kernel_nodes * Fields];
   alignas(64) double sums[most_kernel_nodes][width];
   double entries_of_one[most_kernel_nodes];  ///< of one field
   const int* nodes;                          ///< of the same
-  FewNodes few;                              ///< the same, of few nodes
-  bool is_few;
   double scales[Fields];
   Made made;
+  bool is_few;  ///< `few` holds the row
 };
 
 /// Sums of all rows at the nodes, put where the nodes belong: a node's derivatives times the
