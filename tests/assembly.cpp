@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <random>
 #include <set>
 #include <vector>
@@ -11,36 +10,14 @@
 #include <omp.h>
 
 #include "methods/core/error.hpp"
-#include "methods/core/simd/output.hpp"
 #include "problems/core/assembly_rows.hpp"
 #include "problems/core/column_set.hpp"
 #include "problems/core/elasticity.hpp"
 #include "problems/core/random.hpp"
-#include "tests/simd_paths.hpp"
+#include "tests/random_weights.hpp"
 
 namespace strongpoint {
 namespace {
-
-/// Stencils of random nodes at each of some points, with random weights.
-Weights random_weights(int nodes, int per_row, int per_entry) {
-  std::mt19937_64 generator(1);
-  Weights weights;
-  weights.per_entry = per_entry;
-  std::vector<int> all(nodes);
-  std::iota(all.begin(), all.end(), 0);
-  for (int p = 0; p < nodes; ++p) {
-    for (int j = 0; j < per_row; ++j) {  // the first of a shuffled list
-      const auto left = static_cast<double>(nodes - j);
-      std::swap(all[j], all[j + static_cast<int>(uniform01(generator) * left)]);
-      weights.columns.push_back(all[j]);
-    }
-    weights.offsets.push_back(static_cast<std::int64_t>(weights.columns.size()));
-  }
-  for (int e = 0; e < nodes * per_row * per_entry; ++e) {
-    weights.values.push_back(2 * uniform01(generator) - 1);
-  }
-  return weights;
-}
 
 const Derivatives<2> second_order = Derivatives<2>::between_orders(1, 2);
 
@@ -216,54 +193,6 @@ TEST(Assembly, AddsUpTheTermsOfEveryKindOfRow) {
                                    system.columns.begin() + system.offsets[row + 1]));
       }
     }
-  }
-}
-
-/// The Laplacian of one field, or the equilibrium of two, at each node.
-EquationList plain_equations(int nodes, int fields) {
-  EquationList list;
-  EquationWriter<2> write(list, second_order);
-  for (int node = 0; node < nodes; ++node) {
-    write.at(node);
-    for (int i = 0; i < fields; ++i) {
-      if (fields == 1) {
-        write.add(0, {2, 0}, 1);
-        write.add(0, {0, 2}, 1);
-      } else {
-        add_equilibrium<2>(write, Lame{2, 1}, i);
-      }
-      write.equals(node);
-    }
-  }
-  return list;
-}
-
-TEST(Assembly, WritesLargeSystemsPastTheCaches) {
-  constexpr double round_off = 1e-14;  // of sums of five products at most
-  for (const int fields : {1, 2}) {
-    const int nodes = 80000 / (fields * fields);
-    const Weights weights = random_weights(nodes, 30, second_order.size());
-    const EquationList equations = plain_equations(nodes, fields);
-    const NodeUnknowns unknowns{.count = nodes};
-    on_every_path([&] {
-      const LinearSystem system = assemble(equations, weights, unknowns, fields);
-      ASSERT_GE(system.values.size(), least_streamed);
-      RowMaker maker({equations, weights, unknowns, fields});
-      int others = 0;
-      for (int row = 0; row < system.rows(); ++row) {
-        maker.make(row);
-        const std::int64_t begin = system.offsets[row];
-        bool is_same =
-            system.offsets[row + 1] - begin == static_cast<std::int64_t>(maker.columns().size());
-        for (std::size_t e = 0; is_same && e < maker.columns().size(); ++e) {
-          is_same = system.columns[begin + e] == maker.columns()[e] &&
-                    std::abs(system.values[begin + e] -
-                             maker.values()[e] * system.row_scales[row]) <= round_off;
-        }
-        others += is_same ? 0 : 1;
-      }
-      EXPECT_EQ(others, 0);
-    });
   }
 }
 
