@@ -21,9 +21,9 @@ constexpr int padded(int count, int unit) { return (count + unit - 1) / unit * u
 /// The first `count` of some ids, large numbers behind them.
 inline Ids load_ids(const int* ids, int count) {
 #if defined(__AVX512F__)
-  const int loaded = count < 0 ? 0 : count < ids_at_once ? count : ids_at_once;
-  const auto some = static_cast<__mmask16>((1U << loaded) - 1);
-  return reinterpret_cast<Ids>(_mm512_mask_loadu_epi32(_mm512_set1_epi32(beyond), some, ids));
+  const unsigned some = count >= ids_at_once ? 0xFFFFU : count > 0 ? (1U << count) - 1 : 0U;
+  return reinterpret_cast<Ids>(_mm512_mask_loadu_epi32(_mm512_set1_epi32(beyond),
+                                                       static_cast<__mmask16>(some), ids));
 #else
   Ids result;
   for (int i = 0; i < ids_at_once; ++i) result[i] = i < count ? ids[i] : beyond;
