@@ -26,7 +26,7 @@ inline double scale_of(double largest, double total) {
 }
 
 /// A row of one field at a few nodes, from two derivatives each.
-class FewNodes {
+class alignas(64) FewNodes {
 #if defined(__AVX512F__)
 
  public:

@@ -22,8 +22,8 @@ constexpr int padded(int count, int unit) { return (count + unit - 1) / unit * u
 inline Ids load_ids(const int* ids, int count) {
 #if defined(__AVX512F__)
   const unsigned some = count >= ids_at_once ? 0xFFFFU : count > 0 ? (1U << count) - 1 : 0U;
-  return reinterpret_cast<Ids>(_mm512_mask_loadu_epi32(_mm512_set1_epi32(beyond),
-                                                       static_cast<__mmask16>(some), ids));
+  return reinterpret_cast<Ids>(
+      _mm512_mask_loadu_epi32(_mm512_set1_epi32(beyond), static_cast<__mmask16>(some), ids));
 #else
   Ids result;
   for (int i = 0; i < ids_at_once; ++i) result[i] = i < count ? ids[i] : beyond;
@@ -87,10 +87,10 @@ struct Buffers {
   alignas(64) double coefficients[most_kernel_derivatives][width];
   alignas(64) std::int64_t columns[most_kernel_nodes * Fields];
   alignas(64) double sums[most_kernel_nodes][width];
+  Made made;
   double entries_of_one[most_kernel_nodes];  ///< of one field
   const int* nodes;                          ///< of the same
   double scales[Fields];
-  Made made;
   bool is_few;  ///< `few` holds the row
 };
 
