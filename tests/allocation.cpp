@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include "methods/core/sanitizers.hpp"
 #include "problems/core/integrator.hpp"
 #include "studies/support/waves.hpp"
 #include "tests/contract_support.hpp"
@@ -20,13 +21,9 @@ std::atomic<std::int64_t> allocations{0};
 }  // namespace
 }  // namespace strongpoint
 
-// A sanitizer replaces malloc itself, and a second replacement would break it. GCC says so by a
-// macro, clang by a feature.
-#ifndef __has_feature
-#define __has_feature(name) 0  // NOLINT(bugprone-reserved-identifier): clang's own name
-#endif
+// A sanitizer replaces malloc itself, and a second replacement would break it.
 #if defined(__SANITIZE_ADDRESS__) || __has_feature(address_sanitizer) || \
-    __has_feature(thread_sanitizer)
+    defined(__SANITIZE_THREAD__) || __has_feature(thread_sanitizer)
 constexpr bool counts_allocations = false;
 #else
 constexpr bool counts_allocations = true;

@@ -10,6 +10,7 @@
 #endif
 
 #include "methods/core/kept_memory.hpp"
+#include "methods/core/sanitizers.hpp"
 
 namespace strongpoint {
 namespace {
@@ -20,12 +21,8 @@ constexpr std::size_t huge_page = std::size_t{1} << 21;
 /// Below this, ordinary memory is reused by the allocator more often than it is touched first.
 constexpr std::size_t least_bytes = 2 * huge_page;
 
-#ifdef __SANITIZE_ADDRESS__
-constexpr std::size_t most_kept = 0;  // memory that is given back must not be touched unseen
-#else
 /// What may lie idle. The arrays of a scene of 1e5 nodes fit in.
-constexpr std::size_t most_kept = std::size_t{1} << 28;
-#endif
+constexpr std::size_t most_kept = checks_addresses ? 0 : std::size_t{1} << 28;
 
 void* allocate_fresh(std::size_t whole) {
   void* memory = std::aligned_alloc(huge_page, whole);
