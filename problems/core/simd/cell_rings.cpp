@@ -1,6 +1,6 @@
 #include "problems/core/simd/cell_rings.hpp"
 
-#include "methods/core/simd/pack.hpp"
+#include "problems/core/simd/nearest_crossing.hpp"
 
 namespace strongpoint::STRONGPOINT_SIMD_PATH {
 namespace {
@@ -54,19 +54,6 @@ void gather(const RingTask& task, int first, Arms& arms) {
     arms.x[j] = load(buffer[0]) - x;
     arms.y[j] = load(buffer[1]) - y;
   }
-}
-
-/// The nearest crossings found, t as a quotient.
-struct Nearest {
-  Pack above, below, place;
-};
-
-/// Takes a crossing that is nearer; `its_above` is infinite where there is none.
-inline void compare(Pack its_above, Pack its_below, Pack its_place, Nearest& nearest) {
-  const unsigned nearer = less(its_above * nearest.below, nearest.above * its_below);
-  nearest.above = choose(nearer, its_above, nearest.above);
-  nearest.below = choose(nearer, its_below, nearest.below);
-  nearest.place = choose(nearer, its_place, nearest.place);
 }
 
 /// Looks at the bisector of arm j.

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "methods/core/simd/pack.hpp"
+#include "problems/core/simd/nearest_crossing.hpp"
 #include "problems/core/simd/walk_cells.hpp"
 
 namespace strongpoint::STRONGPOINT_SIMD_PATH {
@@ -62,19 +62,6 @@ struct Rays {
   double t[lanes];    ///< to the first bisector; infinite where they cross none
   double place[lanes];
 };
-
-/// The first bisectors that rays cross so far, t as a quotient.
-struct Nearest {
-  Pack above, below, place;
-};
-
-/// Takes a bisector that is nearer; `its_above` is infinite where there is none.
-inline void compare(Pack its_above, Pack its_below, Pack its_place, Nearest& nearest) {
-  const unsigned nearer = less(its_above * nearest.below, nearest.above * its_below);
-  nearest.above = choose(nearer, its_above, nearest.above);
-  nearest.below = choose(nearer, its_below, nearest.below);
-  nearest.place = choose(nearer, its_place, nearest.place);
-}
 
 /// Rays as packs.
 struct Bundle {
