@@ -146,17 +146,20 @@ TEST(CellFaces, AHandfulOfNodesShareTheSquare) {
   }
 }
 
-TEST(CellFaces, MeasuresAreThoseOfVoronoiVolumesOnConvexPolygons) {
+TEST(CellFaces, MeasuresAreThoseOfVoronoiVolumesOnPolygons) {
   const PolygonDomain pentagon({{0, 0}, {1, -0.2}, {1.3, 0.5}, {0.6, 1.1}, {-0.2, 0.7}});
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const PointCloud<2> cloud = make_cloud<2>(pentagon, "scattered", {17, seed});
-    const CellFaces<2> faces = faces_of(cloud, pentagon);
-    const Eigen::VectorXd volumes =
-        voronoi_volumes(cloud, pentagon, *make_search<2>("auto", cloud.nodes));
-    for (int i = 0; i < cloud.size(); ++i) {
-      const double measure = cell_measure<2>(cloud.nodes.col(i), faces.of(i));
-      // Tangent planes of slanted sides come from central differences.
-      EXPECT_NEAR(measure, volumes[i], 1e-9 * measure) << "node " << i;
+  const PolygonDomain corner = l_shape(), notched = notched_square();
+  for (const PolygonDomain* polygon : {&pentagon, &corner, &notched}) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      const PointCloud<2> cloud = make_cloud<2>(*polygon, "scattered", {17, seed});
+      const CellFaces<2> faces = faces_of(cloud, *polygon);
+      const Eigen::VectorXd volumes =
+          voronoi_volumes(cloud, *polygon, *make_search<2>("auto", cloud.nodes));
+      for (int i = 0; i < cloud.size(); ++i) {
+        const double measure = cell_measure<2>(cloud.nodes.col(i), faces.of(i));
+        // Tangent planes of slanted sides come from central differences.
+        EXPECT_NEAR(measure, volumes[i], 1e-9 * measure) << "node " << i;
+      }
     }
   }
 }

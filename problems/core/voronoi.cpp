@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include "methods/core/error.hpp"
 #include "problems/core/cell_maker.hpp"
 #include "problems/core/cell_visits.hpp"
+#include "problems/core/reentrant_cells.hpp"
 #include "problems/core/simd/cell_rings.hpp"
 #include "problems/core/simd/cut_cells.hpp"
 #include "problems/core/simd/walk_cells.hpp"
@@ -126,8 +128,14 @@ class FreeCellMaker<3> {
 template <int Dim>
 class MeasureWorker {
  public:
-  MeasureWorker(const PointCloud<Dim>& cloud, const Domain<Dim>& domain, Eigen::VectorXd& measures)
-      : cloud_(cloud), domain_(domain), measures_(measures), free_(cloud), maker_(cloud, domain) {}
+  MeasureWorker(const PointCloud<Dim>& cloud, const Domain<Dim>& domain,
+                const ReentrantSetting<Dim>& reentrant, Eigen::VectorXd& measures)
+      : cloud_(cloud),
+        domain_(domain),
+        measures_(measures),
+        free_(cloud),
+        reentrant_(reentrant),
+        maker_(cloud, domain) {}
 
   void operator()(const CellBlock& block) {
     free_.make(block, cells_);
@@ -143,7 +151,8 @@ class MeasureWorker {
         measures_[node] = cells_.measure[i];
         block.wanted[i] = is_settled ? 0 : 2 * std::sqrt(farthest_squared);
       } else {
-        const CellExtent extent = maker_.measure(node, neighbours, reach);
+        const std::optional<CellExtent> near = reentrant_.measure(node, neighbours, reach);
+        const CellExtent extent = near ? *near : maker_.measure(node, neighbours, reach);
         measures_[node] = extent.measure;
         const bool is_open = extent.state == CellState::open;
         block.wanted[i] = is_open ? 2 * std::sqrt(extent.farthest_squared) : 0;
@@ -157,6 +166,7 @@ class MeasureWorker {
   Eigen::VectorXd& measures_;
   FreeCellMaker<Dim> free_;
   FreeCells cells_;
+  ReentrantCells<Dim> reentrant_;
   CellMaker<Dim> maker_;
 };
 
@@ -167,10 +177,10 @@ Eigen::VectorXd voronoi_volumes(const PointCloud<Dim>& cloud, const Domain<Dim>&
                                 const NeighbourSearch<Dim>& search) {
   const int count = cloud.size();
   Eigen::VectorXd volumes(count);
+  const ReentrantSetting<Dim> reentrant(cloud, domain);
   visit_cells(cloud, search, [&] {
-    return [worker = MeasureWorker<Dim>(cloud, domain, volumes)](const CellBlock& block) mutable {
-      worker(block);
-    };
+    return [worker = MeasureWorker<Dim>(cloud, domain, reentrant, volumes)](
+               const CellBlock& block) mutable { worker(block); };
   });
   for (int i = 0; i < count; ++i) {
     if (volumes[i] > 0 && std::isfinite(volumes[i])) continue;
