@@ -59,6 +59,20 @@ TestScene<Dim> make_scene(const std::string& method, const std::string& cloud, i
   return scene;
 }
 
+/// Weights at points that belong to one anchor.
+template <int Dim>
+Weights weights_at(const TestScene<Dim>& scene, int anchor, const Points<Dim>& points,
+                   const Derivatives<Dim>& derivatives) {
+  Sites<Dim> sites = scene.sites;
+  sites.points = points;
+  sites.point_anchor.assign(points.cols(), anchor);
+  Stencils only;
+  for (int a = 0; a < sites.anchor_count(); ++a) {
+    only.push_back(a == anchor ? scene.stencils[a] : std::span<const int>{});
+  }
+  return scene.method->weights(sites, only, derivatives);
+}
+
 /// True when a spec's values are within what the method offers and it exists in the dimension.
 template <int Dim>
 bool is_offered(const std::string& spec) {
