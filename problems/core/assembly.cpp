@@ -17,6 +17,10 @@ namespace {
 /// Nodes whose rows a thread treats in one go.
 constexpr int nodes_at_once = 256;
 
+/// Distance between the points of two places.
+constexpr int ints_of_place = sizeof(EquationPlace) / sizeof(int);
+static_assert(sizeof(EquationPlace) % sizeof(int) == 0, "points lie a whole number of ints apart");
+
 /// Whether the columns of a row are written, or compared with those that are there.
 enum class Pattern { made, kept };
 
@@ -138,9 +142,8 @@ void fill_row(const RowSources& sources, int row, Pattern pattern, RowMaker& mak
 }
 
 /// Makes the rows of a run; those that the kernel finds fault with are judged one by one.
-void fill_run(const RowSources& sources, int first, Pattern pattern, Tools& tools,
+void fill_run(const RowSources& sources, int first, int points, Pattern pattern, Tools& tools,
               LinearSystem& system) {
-  const auto points = static_cast<int>(tools.runs.points().size());
   const LargeArray<double>& row_weights = sources.equations.row_weights;
   int other_columns = -1;
   make_rows({.weight_offsets = sources.weights.offsets.data(),
@@ -149,7 +152,8 @@ void fill_run(const RowSources& sources, int first, Pattern pattern, Tools& tool
              .derivatives = sources.weights.per_entry,
              .fields = sources.fields,
              .coefficients = tools.runs.coefficients().data(),
-             .points = tools.runs.points().data(),
+             .points = &sources.equations.places[first].point,
+             .point_step = sources.fields * ints_of_place,
              .count = points,
              .offsets = system.offsets.data() + first,
              .row_weights = row_weights.empty() ? nullptr : row_weights.data() + first,
@@ -173,7 +177,7 @@ void fill_run(const RowSources& sources, int first, Pattern pattern, Tools& tool
 void fill_rows(const RowSources& sources, Pattern pattern, LinearSystem& system) {
   for_all_rows(sources, [&](int row, int end, Tools& tools) {
     if (const int points = tools.runs.find(row, end); points > 0) {
-      fill_run(sources, row, pattern, tools, system);
+      fill_run(sources, row, points, pattern, tools, system);
       return points * sources.fields;
     }
     fill_row(sources, row, pattern, tools.maker, system);
@@ -185,15 +189,17 @@ void fill_rows(const RowSources& sources, Pattern pattern, LinearSystem& system)
 void count_entries(const RowSources& sources, LargeArray<std::int64_t>& offsets) {
   for_all_rows(sources, [&](int row, int end, Tools& tools) {
     std::int64_t* count = offsets.data() + row + 1;
-    if (tools.runs.find(row, end) == 0) {
+    const int points = tools.runs.find(row, end);
+    if (points == 0) {
       *count = tools.maker.count(row);
       return 1;
     }
-    for (const int point : tools.runs.points()) {
-      const auto nodes = static_cast<std::int64_t>(sources.weights.nodes(point).size());
+    const EquationPlace* place = sources.equations.places.data() + row;
+    for (int i = 0; i < points; ++i, place += sources.fields) {
+      const auto nodes = static_cast<std::int64_t>(sources.weights.nodes(place->point).size());
       for (int r = 0; r < sources.fields; ++r) *count++ = nodes * sources.fields;
     }
-    return static_cast<int>(tools.runs.points().size()) * sources.fields;
+    return points * sources.fields;
   });
 }
 

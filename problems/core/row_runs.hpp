@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "problems/core/assembly_rows.hpp"
@@ -15,10 +16,9 @@ class RowRuns {
   explicit RowRuns(const RowSources& sources) : sources_(sources) {}
 
   /// Looks for such rows from `row` on, before `end`; returns the number of points they belong to,
-  /// 0 when the next row is none.
+  /// 0 when the next row is none. The point of each is that of its first row's place.
   int find(int row, int end);
 
-  const std::vector<int>& points() const { return points_; }
   /// (derivatives, rows of a point, fields)
   const std::vector<double>& coefficients() const { return coefficients_; }
 
@@ -27,12 +27,13 @@ class RowRuns {
   std::array<std::int64_t, most_kernel_fields> known_{-1, -1, -1};  ///< terms of `coefficients_`
   bool is_usable_ = false;  ///< all fields occur in each row, and no bare values
   std::vector<double> coefficients_;
-  std::vector<int> points_;
 
-  bool is_known(const EquationPlace* places) const;
-  bool is_at_one_point(const EquationPlace* places) const;
-  bool has_usable_nodes(int point) const;
   void learn(int row);
+  template <int Fields>
+  int count_alike(int row, int end) const;
+  template <int Fields>
+  bool is_alike(const EquationPlace* places) const;
+  bool are_unknowns(std::span<const int> nodes) const;
 };
 
 }  // namespace strongpoint

@@ -240,7 +240,7 @@ int make_rows_with(const RowsTask& task, Buffers<Fields>& work) {
   Made& made = work.made;
   made.begin = task.offsets[0];
   for (int i = 0; i < task.count; ++i) {
-    const int point = task.points[i];
+    const int point = task.points[static_cast<long>(i) * task.point_step];
     const std::int64_t first = task.weight_offsets[point];
     const int count = static_cast<int>(task.weight_offsets[point + 1] - first);
     PointRows<Fields>::find(task, first, count, work);

@@ -25,7 +25,8 @@ struct RowsTask {
   int derivatives;                     ///< values an entry
   int fields;                          ///< 1 to `most_kernel_fields`
   const double* coefficients;          ///< (derivatives, rows of a point, fields), fields innermost
-  const int* points;                   ///< (count) with 1 to `most_kernel_nodes` nodes
+  const int* points;  ///< (count), `point_step` apart, with 1 to `most_kernel_nodes` nodes
+  int point_step;
   int count;
   const std::int64_t* offsets;  ///< (count * fields + 1) of the rows in what follows
   const double* row_weights;    ///< (count * fields) factors after scaling, or null
