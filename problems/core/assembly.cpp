@@ -17,6 +17,8 @@ namespace {
 /// Nodes whose rows a thread treats in one go.
 constexpr int nodes_at_once = 256;
 
+constexpr double most = std::numeric_limits<double>::max();
+
 /// Distance between the points of two places.
 constexpr int ints_of_place = sizeof(EquationPlace) / sizeof(int);
 static_assert(sizeof(EquationPlace) % sizeof(int) == 0, "points lie a whole number of ints apart");
@@ -163,13 +165,18 @@ void fill_run(const RowSources& sources, int first, int points, Pattern pattern,
              .output = system.values.size() >= least_streamed ? Output::streamed : Output::cached,
              .other_columns = pattern == Pattern::kept ? &other_columns : nullptr});
   const int end = other_columns >= 0 ? first + other_columns + 1 : first + points * sources.fields;
+  const double* const scales = system.row_scales.data();
+  const double* const given = sources.equations.right_hand_sides.data();
+  double* const scaled = system.right_hand_side.data();
+  int bad = 0;
   for (int row = first; row < end; ++row) {
-    const double right_hand_side = sources.equations.right_hand_sides[row];
-    const bool is_good = system.row_scales[row] > 0 && std::isfinite(right_hand_side);
-    if (row == first + other_columns || !is_good) {
+    bad += (scales[row] > 0 ? 0 : 1) + (std::abs(given[row]) <= most ? 0 : 1);
+    scaled[row] = given[row] * scales[row];
+  }
+  if (bad == 0 && other_columns < 0) return;
+  for (int row = first; row < end; ++row) {
+    if (row == first + other_columns || !(scales[row] > 0) || !std::isfinite(given[row])) {
       fill_row(sources, row, pattern, tools.maker, system);
-    } else {
-      system.right_hand_side[row] = right_hand_side * system.row_scales[row];
     }
   }
 }

@@ -2,55 +2,12 @@
 
 #include "methods/core/simd/lane_scatter.hpp"
 #include "problems/core/simd/few_nodes.hpp"
+#include "problems/core/simd/node_ranks.hpp"
 
 namespace strongpoint::STRONGPOINT_SIMD_PATH {
 namespace {
 
-/// Numbers compared side by side when nodes are sorted.
-constexpr int block = 16;
-
-/// Ids that one register holds, 4 without AVX2.
-constexpr int ids_at_once = lanes == 1 ? 4 : 2 * lanes;
-using Ids = int __attribute__((vector_size(ids_at_once * sizeof(int)), may_alias));
-
-/// Larger than any node's id.
-constexpr int beyond = 0x7fffffff;
-
 constexpr int padded(int count, int unit) { return (count + unit - 1) / unit * unit; }
-
-/// The first `count` of some ids, large numbers behind them.
-inline Ids load_ids(const int* ids, int count) {
-#if defined(__AVX512F__)
-  const unsigned some = count >= ids_at_once ? 0xFFFFU : count > 0 ? (1U << count) - 1 : 0U;
-  return reinterpret_cast<Ids>(
-      _mm512_mask_loadu_epi32(_mm512_set1_epi32(beyond), static_cast<__mmask16>(some), ids));
-#else
-  Ids result;
-  for (int i = 0; i < ids_at_once; ++i) result[i] = i < count ? ids[i] : beyond;
-  return result;
-#endif
-}
-
-/// The place of each id in ascending order: the number of smaller ones. No branch depends on data.
-template <int Blocks>
-void rank_few(const int* ids, int count, int* rank) {
-  constexpr int packs = Blocks * block / ids_at_once;
-  Ids numbers[packs];
-  for (int b = 0; b < packs; ++b) {
-    numbers[b] = load_ids(ids + b * ids_at_once, count - b * ids_at_once);
-  }
-  Ids smaller[packs] = {};
-  for (int j = 0; j < count; ++j) {
-    for (int b = 0; b < packs; ++b) smaller[b] -= numbers[b] > ids[j];  // true is -1
-  }
-  for (int b = 0; b < packs; ++b) reinterpret_cast<Ids*>(rank)[b] = smaller[b];
-}
-
-inline void rank_nodes(const int* nodes, int count, int* rank) {
-  if (count <= block) return rank_few<1>(nodes, count, rank);
-  if (count <= 2 * block) return rank_few<2>(nodes, count, rank);
-  rank_few<most_kernel_nodes / block>(nodes, count, rank);
-}
 
 /// Entries that were made and wait to be written, few enough to stay in the first-level cache.
 struct Made {
@@ -83,15 +40,12 @@ struct Buffers {
   static constexpr int width = padded(entries, lanes);
 
   alignas(64) int rank[most_kernel_nodes];
-  FewNodes few;  ///< of one field, instead of ranks and sums
   alignas(64) double coefficients[most_kernel_derivatives][width];
   alignas(64) std::int64_t columns[most_kernel_nodes * Fields];
   alignas(64) double sums[most_kernel_nodes][width];
   Made made;
   double entries_of_one[most_kernel_nodes];  ///< of one field
-  const int* nodes;                          ///< of the same
   double scales[Fields];
-  bool is_few;  ///< `few` holds the row
 };
 
 /// Sums of all rows at the nodes, put where the nodes belong: a node's derivatives times the
@@ -146,10 +100,11 @@ bool are_same(const std::int64_t* a, const std::int64_t* b, int count) {
   return difference == 0;
 }
 
-/// Makes the rows of a point.
+/// Makes the rows of a point, behind those that wait, and their scales times `row_weights`.
 template <int Fields>
 struct PointRows {
-  static void find(const RowsTask& task, std::int64_t first, int count, Buffers<Fields>& work) {
+  static void make(const RowsTask& task, std::int64_t first, int count, const double* row_weights,
+                   Buffers<Fields>& work) {
     rank_nodes(task.nodes + first, count, work.rank);
     add_up<Fields>(task, first, count, work);
     find_scales<Fields>(count, work);
@@ -159,22 +114,60 @@ struct PointRows {
         columns[f] = static_cast<std::int64_t>(task.nodes[first + j]) * Fields + f;
       }
     }
+    for (int row = 0; row < Fields; ++row) {
+      work.scales[row] *= row_weights[row];
+      put(count, row, work);
+    }
   }
-  static void put(int count, int row, double scale, Buffers<Fields>& work) {
-    double* const values = work.made.values + work.made.count;
-    std::int64_t* const columns = work.made.columns + work.made.count;
+
+ private:
+  static void put(int count, int row, Buffers<Fields>& work) {
+    const int length = count * Fields;
+    double* const values = work.made.values + work.made.count + row * length;
+    std::int64_t* const columns = work.made.columns + work.made.count + row * length;
+    const double scale = work.scales[row];
     for (int j = 0; j < count; ++j) {
       for (int f = 0; f < Fields; ++f) {
         values[j * Fields + f] = work.sums[j][row * Fields + f] * scale;
       }
     }
-    for (int e = 0; e < count * Fields; ++e) columns[e] = work.columns[e];
+    for (int e = 0; e < length; ++e) columns[e] = work.columns[e];
   }
 };
 
 /// The same for one field, in the order of the stencil until numbers are put.
 template <>
 struct PointRows<1> {
+  static void make(const RowsTask& task, std::int64_t first, int count, const double* row_weights,
+                   Buffers<1>& work) {
+    const int* const nodes = task.nodes + first;
+    double* const values = work.made.values + work.made.count;
+    std::int64_t* const columns = work.made.columns + work.made.count;
+    if (task.derivatives == 2 && count <= few_nodes) {
+      FewNodes few;
+      if (few.sort(nodes, count)) {
+        few.add_up(task.weights + 2 * first, count, work.coefficients[0], work.coefficients[1]);
+        work.scales[0] = scale_of(few.largest(), 0) * *row_weights;
+        return few.put(work.scales[0], values, columns);
+      }
+    }
+    rank_nodes(nodes, count, work.rank);
+    if (task.derivatives == 2) {
+      add_up<2>(task, first, count, work);
+    } else if (task.derivatives == 3) {
+      add_up<3>(task, first, count, work);
+    } else {
+      add_up<0>(task, first, count, work);
+    }
+    work.scales[0] *= *row_weights;
+    for (int j = 0; j < count; ++j) {
+      const int place = work.rank[j];
+      values[place] = work.entries_of_one[j] * work.scales[0];
+      columns[place] = nodes[j];
+    }
+  }
+
+ private:
   static constexpr int chains = 4;  ///< independent of each other
 
   template <int Derivatives>
@@ -208,58 +201,39 @@ struct PointRows<1> {
     const double top = high[2] > high[3] ? high[2] : high[3];
     work.scales[0] = scale_of(low > top ? low : top, (total[0] + total[1]) + (total[2] + total[3]));
   }
-  static void find(const RowsTask& task, std::int64_t first, int count, Buffers<1>& work) {
-    work.nodes = task.nodes + first;
-    work.is_few = task.derivatives == 2 && count <= few_nodes && work.few.sort(work.nodes, count);
-    if (work.is_few) {
-      work.few.add_up(task.weights + 2 * first, count, work.coefficients[0], work.coefficients[1]);
-      work.scales[0] = scale_of(work.few.largest(), 0);
-      return;
-    }
-    rank_nodes(work.nodes, count, work.rank);
-    if (task.derivatives == 2) return add_up<2>(task, first, count, work);
-    if (task.derivatives == 3) return add_up<3>(task, first, count, work);
-    add_up<0>(task, first, count, work);
-  }
-  static void put(int count, int, double scale, Buffers<1>& work) {
-    double* const values = work.made.values + work.made.count;
-    std::int64_t* const columns = work.made.columns + work.made.count;
-    if (work.is_few) return work.few.put(scale, values, columns);
-    for (int j = 0; j < count; ++j) {
-      const int place = work.rank[j];
-      values[place] = work.entries_of_one[j] * scale;
-      columns[place] = work.nodes[j];
-    }
-  }
 };
+
+/// True when a row has the columns that are there.
+bool has_columns(const RowsTask& task, int row, const std::int64_t* columns, int length) {
+  const std::int64_t begin = task.offsets[row];
+  return task.offsets[row + 1] - begin == length && are_same(task.columns + begin, columns, length);
+}
 
 /// Makes the rows of the points; returns the first one that has not the columns that are there, -1
 /// for none.
 template <int Fields>
 int make_rows_with(const RowsTask& task, Buffers<Fields>& work) {
+  constexpr double ones[] = {1, 1, 1};
+  static_assert(most_kernel_fields == 3, "a factor for each field");
   Made& made = work.made;
   made.begin = task.offsets[0];
   for (int i = 0; i < task.count; ++i) {
     const int point = task.points[static_cast<long>(i) * task.point_step];
     const std::int64_t first = task.weight_offsets[point];
     const int count = static_cast<int>(task.weight_offsets[point + 1] - first);
-    PointRows<Fields>::find(task, first, count, work);
     const int length = count * Fields;
     if (made.count + length * Fields > Made::room) made.write(task);
+    const double* const row_weights =
+        task.row_weights != nullptr ? task.row_weights + static_cast<long>(i) * Fields : ones;
+    PointRows<Fields>::make(task, first, count, row_weights, work);
     for (int r = 0; r < Fields; ++r) {
       const int row = i * Fields + r;
-      const double weight = task.row_weights != nullptr ? task.row_weights[row] : 1;
-      const double scale = work.scales[r] * weight;
-      PointRows<Fields>::put(count, r, scale, work);
-      if (task.other_columns != nullptr) {
-        const std::int64_t begin = task.offsets[row];
-        if (task.offsets[row + 1] - begin != length ||
-            !are_same(task.columns + begin, made.columns + made.count, length)) {
-          return row;
-        }
+      if (task.other_columns != nullptr &&
+          !has_columns(task, row, made.columns + made.count, length)) {
+        return row;
       }
       made.count += length;
-      task.scales[row] = scale;
+      task.scales[row] = work.scales[r];
     }
   }
   return -1;
