@@ -1,4 +1,6 @@
 // Taylor fits side by side: each path against fits made one by one, in any company.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 #include <omp.h>
 
@@ -83,6 +85,61 @@ TEST(TaylorBatch, MatchesFitsMadeOneByOneOnEveryPath) {
     matches_one_by_one<2>("gfdm", 2, cloud);
     matches_one_by_one<2>("gfdm[weight=volume]", 2, cloud);
   }
+}
+
+/// The same stencils, whose nodes come nearer to a line from left to right: up to a thousandth of
+/// their heights.
+Sites<2> squeezed(Sites<2> sites) {
+  for (Points<2>* places : {&sites.nodes, &sites.anchors, &sites.points}) {
+    for (int i = 0; i < places->cols(); ++i) (*places)(1, i) *= std::pow(1e-3, (*places)(0, i));
+  }
+  return sites;
+}
+
+/// Stencils sorted anew by distance.
+Stencils sorted_again(const Sites<2>& sites, const Stencils& stencils) {
+  Stencils sorted;
+  for (int a = 0; a < stencils.size(); ++a) {
+    std::vector<int> nodes(stencils[a].begin(), stencils[a].end());
+    const auto distance = [&](int node) {
+      return (sites.nodes.col(node) - sites.anchors.col(a)).squaredNorm();
+    };
+    std::sort(nodes.begin(), nodes.end(), [&](int i, int j) { return distance(i) < distance(j); });
+    sorted.push_back(nodes);
+  }
+  return sorted;
+}
+
+/// Lanes of one group are clear of all limits, refined, or left to the orthogonal factorisation;
+/// were one taken for a better one, it would lose up to eight digits.
+void keeps_digits_when_squeezed(const std::string& spec) {
+  SCOPED_TRACE(spec);
+  const auto scene = make_scene<2>(spec, "perturbed[amount=0.3]", 20, 1);
+  const auto& method = dynamic_cast<const TaylorMethod<2>&>(*scene.method);
+  const Sites<2> sites = squeezed(scene.sites);
+  const Stencils stencils = sorted_again(sites, scene.stencils);
+  const std::vector<double> condition =
+      method.condition(sites, sites.wanted_anchors(), stencils, Scaling::both, ConditionNorm::one);
+  EXPECT_LT(*std::min_element(condition.begin(), condition.end()), 1e3);
+  EXPECT_GT(*std::max_element(condition.begin(), condition.end()), 1e9);
+  const auto derivatives = Derivatives<2>::between_orders(1, 2);
+  const Weights expected = one_by_one<2>(method.kernel(), sites, stencils, derivatives);
+  on_every_path([&] {
+    const Weights found = method.weights(sites, stencils, derivatives);
+    for (int p = 0; p < found.size(); ++p) {
+      for (int d = 0; d < derivatives.size(); ++d) {
+        const double size = expected.row(p).row(d).cwiseAbs().maxCoeff();
+        EXPECT_LE((found.row(p).row(d) - expected.row(p).row(d)).cwiseAbs().maxCoeff(),
+                  largest_difference * size)
+            << "point " << p << ' ' << name_of<2>(derivatives[d]) << ", " << condition[p];
+      }
+    }
+  });
+}
+
+TEST(TaylorBatch, KeepsDigitsWhateverTheConditionsInAGroup) {
+  keeps_digits_when_squeezed("mfpm");
+  keeps_digits_when_squeezed("lsfdm");
 }
 
 /// Stencils of every `stride`-th anchor only; the others are left empty.

@@ -106,12 +106,25 @@ template <int Dim, int Degree>
   }
 }
 
-/// Sums that stay in registers at a time, beside the monomials.
+/// Weights of nodes that all are one.
+struct EqualWeights {};
+
+/// A number of node j times its weight.
+[[gnu::always_inline]] inline Pack weighted(EqualWeights, int, Pack number) { return number; }
+[[gnu::always_inline]] inline Pack weighted(const Pack* w, int j, Pack number) {
+  return w[j] * number;
+}
+
+/// Sums that stay in registers at a time, beside the monomials and, where they are others, the
+/// weighted ones.
+template <class NodeWeights>
 inline constexpr int sums_at_once = lanes == 8 ? 12 : 6;
+template <>
+inline constexpr int sums_at_once<EqualWeights> = lanes == 8 ? 16 : 6;
 
 /// Fills sums Begin to End - 1 of the moment table, over nodes 1 to n - 1.
-template <int Dim, int Degree, int Begin, int End>
-[[gnu::always_inline]] inline void sum_some_moments(const Pack* z, const Pack* w, int n,
+template <int Dim, int Degree, int Begin, int End, class NodeWeights>
+[[gnu::always_inline]] inline void sum_some_moments(const Pack* z, NodeWeights w, int n,
                                                     Pack* sums) {
   using Table = MomentTable<Dim, Degree>;
   constexpr const Table& table = moment_table<Dim, Degree>;
@@ -120,14 +133,13 @@ template <int Dim, int Degree, int Begin, int End>
   for (int s = 0; s < End - Begin; ++s) some[s] = all(0);
   for (int j = 1; j < n; ++j) {
     Pack basis[Table::terms];
-    Pack weighted[Table::terms];
+    Pack by_weight[Table::terms];
     evaluate_monomials<Dim, Degree>(z + static_cast<long>(j) * Dim, basis);
-    const Pack weight = w[j];
 #pragma GCC unroll 64
-    for (int a = 0; a < Table::terms; ++a) weighted[a] = weight * basis[a];
+    for (int a = 0; a < Table::terms; ++a) by_weight[a] = weighted(w, j, basis[a]);
 #pragma GCC unroll 32
     for (int s = 0; s < End - Begin; ++s) {
-      some[s] = some[s] + weighted[table.first[Begin + s]] * basis[table.second[Begin + s]];
+      some[s] = some[s] + by_weight[table.first[Begin + s]] * basis[table.second[Begin + s]];
     }
   }
 #pragma GCC unroll 32
@@ -135,20 +147,21 @@ template <int Dim, int Degree, int Begin, int End>
 }
 
 /// The same for all sums from Begin on, in parts of about the same size.
-template <int Dim, int Degree, int Begin = 0>
-[[gnu::always_inline]] inline void sum_moments_from(const Pack* z, const Pack* w, int n,
+template <int Dim, int Degree, int Begin = 0, class NodeWeights>
+[[gnu::always_inline]] inline void sum_moments_from(const Pack* z, NodeWeights w, int n,
                                                     Pack* sums) {
   constexpr int left = MomentTable<Dim, Degree>::size - Begin;
-  constexpr int parts = (left + sums_at_once - 1) / sums_at_once;
+  constexpr int most = sums_at_once<NodeWeights>;
+  constexpr int parts = (left + most - 1) / most;
   constexpr int end = Begin + (left + parts - 1) / parts;
   sum_some_moments<Dim, Degree, Begin, end>(z, w, n, sums);
   if constexpr (parts > 1) sum_moments_from<Dim, Degree, end>(z, w, n, sums);
 }
 
 /// The moment matrix sum_j w_j b_j b_j^T (lower triangle, row after row) of nodes 1 to n - 1, where
-/// b holds the monomials.
-template <int Dim, int Degree>
-[[gnu::always_inline]] inline void sum_moments(const Pack* z, const Pack* w, int n, Pack* moments) {
+/// b holds the monomials and w is an array or EqualWeights.
+template <int Dim, int Degree, class NodeWeights>
+[[gnu::always_inline]] inline void sum_moments(const Pack* z, NodeWeights w, int n, Pack* moments) {
   using Table = MomentTable<Dim, Degree>;
   constexpr const Table& table = moment_table<Dim, Degree>;
   Pack sums[Table::size];

@@ -10,9 +10,11 @@ inline const Pack* squares_of(const double* squared, long row) {
   return squared == nullptr ? nullptr : reinterpret_cast<const Pack*>(squared) + row;
 }
 
-/// Copies weights of a group's nodes, ones where `from` is null; they become zero at the centre,
-/// which comes first, and in padding.
-inline void mask_weights(const StencilTable& table, int first, const Pack* from, Pack* to) {
+/// Copies weights of a group's nodes; they become zero at the centre, which comes first, and in
+/// padding. Returns `to`, or null where `from` is null: the weights are ones, which may stay in
+/// padding, where monomials vanish.
+inline const Pack* mask_weights(const StencilTable& table, int first, const Pack* from, Pack* to) {
+  if (from == nullptr) return nullptr;
   double size[lanes];
   int least = table.size;
   for (int lane = 0; lane < lanes; ++lane) {
@@ -23,11 +25,11 @@ inline void mask_weights(const StencilTable& table, int first, const Pack* from,
     least = count < least ? count : least;
   }
   to[0] = all(0);
-  for (int j = 1; j < least; ++j) to[j] = from == nullptr ? all(1) : from[j];
+  for (int j = 1; j < least; ++j) to[j] = from[j];
   for (int j = least; j < table.size; ++j) {
-    const Pack weight = from == nullptr ? all(1) : from[j];
-    to[j] = choose(less(all(j), load(size)), weight, all(0));
+    to[j] = choose(less(all(j), load(size)), from[j], all(0));
   }
+  return to;
 }
 
 }  // namespace strongpoint::STRONGPOINT_SIMD_PATH

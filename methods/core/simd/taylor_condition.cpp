@@ -34,12 +34,16 @@ unsigned judge_group(const TaylorConditionTask& task, int first) {
   constexpr int terms = monomials_up_to<Dim>(Order);
   const StencilTable& table = task.gathered.table;
   const long rows = first / lanes * static_cast<long>(table.size);
-  Pack* const weights = reinterpret_cast<Pack*>(task.scratch);
+  const Pack* const z = reinterpret_cast<const Pack*>(task.gathered.z) + rows * Dim;
   Pack moments[terms * (terms + 1) / 2];
   Pack inverse[terms * (terms + 1) / 2];
-  mask_weights(table, first, squares_of(task.squared, rows), weights);
-  sum_moments<Dim, Order>(reinterpret_cast<const Pack*>(task.gathered.z) + rows * Dim, weights,
-                          table.size, moments);
+  const Pack* const weights = mask_weights(table, first, squares_of(task.squared, rows),
+                                           reinterpret_cast<Pack*>(task.scratch));
+  if (weights == nullptr) {
+    sum_moments<Dim, Order>(z, EqualWeights{}, table.size, moments);
+  } else {
+    sum_moments<Dim, Order>(z, weights, table.size, moments);
+  }
   const Pack radius = load(task.gathered.radius + first);
   Pack factors[terms];
   Pack inverse_factors[terms];
@@ -51,7 +55,9 @@ unsigned judge_group(const TaylorConditionTask& task, int first) {
   const Pack plain = norm_of_symmetric<terms>(moments);
   const Norms norms = norms_of_scaled<terms>(moments, factors);
   const unsigned good = factorise_ldlt<terms>(moments, task.least_pivot);
-  invert_ldlt<terms>(moments, inverse);
+  InverseFactors<terms> factors_of_inverse;
+  factors_of_inverse.take(moments);
+  factors_of_inverse.multiply(inverse);
   // Rows of the inverse are divided by the factors: the norms change places.
   const Norms of_inverse = norms_of_scaled<terms>(inverse, inverse_factors);
   store(task.one + first, norms.one * of_inverse.maximum);

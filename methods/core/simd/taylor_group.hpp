@@ -12,6 +12,10 @@ namespace strongpoint::STRONGPOINT_SIMD_PATH {
 /// The condition up to which eleven digits and more are left without refinement.
 inline constexpr double largest_unrefined = 1e3;
 
+/// The square of a bound of the condition below which it is not found; a little is left to
+/// round-off.
+inline constexpr double safe_square = largest_unrefined * largest_unrefined * (1 - 1e-9);
+
 /// Derivatives whose weights are found together: their solutions share each node's monomials.
 template <int Terms>
 inline constexpr int derivatives_at_once = Terms <= 5 ? 5 : (Terms <= 9 ? 3 : 1);
@@ -32,12 +36,12 @@ class TaylorGroup {
     const long place = first / lanes;
     z_ = reinterpret_cast<const Pack*>(task.gathered.z) + place * size_ * Dim;
     radius_ = load(task.gathered.radius + first);
-    w_ = reinterpret_cast<Pack*>(task.scratch);
-    rows_ = w_ + size_;
+    Pack* const room = reinterpret_cast<Pack*>(task.scratch);
+    rows_ = room + size_;
     piece_ = rows_ + static_cast<long>(size_) * count_;
     right_sides_ = piece_ + static_cast<long>(size_) * count_;
     solutions_ = right_sides_ + static_cast<long>(terms) * count_;
-    mask_weights(table_, first, squares_of(task.squared, place * size_), w_);
+    w_ = mask_weights(table_, first, squares_of(task.squared, place * size_), room);
   }
 
   /// Bits of the lanes whose weights were written.
@@ -64,14 +68,14 @@ class TaylorGroup {
  private:
   static constexpr int highest_order = Order;
 
-  Pack inverse_[terms * (terms + 1) / 2];
+  InverseFactors<terms> inverse_;
   Pack order_factor_[highest_order + 1];  ///< R^-order
   Pack radius_;
   const TaylorTask& task_;
   const StencilTable& table_;
   Piece& waiting_;
   const Pack* z_;
-  Pack* w_;            ///< (n) T^2, 0 at the centre and in padding
+  const Pack* w_;      ///< (n) T^2, 0 at the centre and in padding; null for ones
   Pack* rows_;         ///< (D, n) weights
   Pack* piece_;        ///< the same, lane after lane
   Pack* right_sides_;  ///< (terms, D)
@@ -92,13 +96,25 @@ class TaylorGroup {
   /// Bits of the lanes whose moment matrices are well conditioned.
   unsigned factorise() {
     Pack moments[terms * (terms + 1) / 2];
-    sum_moments<Dim, Order>(z_, w_, size_, moments);
+    if (w_ == nullptr) {
+      sum_moments<Dim, Order>(z_, EqualWeights{}, size_, moments);
+    } else {
+      sum_moments<Dim, Order>(z_, w_, size_, moments);
+    }
     const Pack norm = norm_of_symmetric<terms>(moments);
     const unsigned good = factorise_ldlt<terms>(moments, task_.least_pivot);
-    invert_ldlt<terms>(moments, inverse_);
-    const Pack condition = norm * norm_of_symmetric<terms>(inverse_);
+    inverse_.take(moments);
+    const unsigned safe = less(norm * norm * inverse_.square_bound(), all(safe_square));
+    return (good & ~safe) == 0 ? good : good & judge(norm);
+  }
+
+  /// Finds the conditions, which nobody needs where a bound of them is small.
+  [[gnu::noinline]] unsigned judge(Pack norm) {
+    Pack inverse[terms * (terms + 1) / 2];
+    inverse_.multiply(inverse);
+    const Pack condition = norm * norm_of_symmetric<terms>(inverse);
     delicate_ = less(all(largest_unrefined), condition);
-    return good & less(condition, all(task_.condition_limit));
+    return less(condition, all(task_.condition_limit));
   }
 
   void scale_orders() {
@@ -106,8 +122,6 @@ class TaylorGroup {
     order_factor_[0] = all(1);
     for (int q = 1; q <= highest_order; ++q) order_factor_[q] = order_factor_[q - 1] * inverse;
   }
-
-  Pack inverse_entry(int i, int j) const { return inverse_[symmetric_places<terms>.of[i][j]]; }
 
   /// The p-th point of each lane, relative to the anchor and over R. Lanes without one get their
   /// last.
@@ -150,7 +164,7 @@ class TaylorGroup {
         right_side[a] =
             factors[a] == 0 ? all(0) : all(factors[a]) * monomials[powers[a] + 1] * scale;
       }
-      by_inverse(right_side, solutions_ + static_cast<long>(d) * terms);
+      inverse_.solve(right_side, solutions_ + static_cast<long>(d) * terms);
     }
   }
 
@@ -165,20 +179,7 @@ class TaylorGroup {
       if (own < 0) continue;
       right_side[own] = all(task_.derivatives.factors[static_cast<long>(d) * terms + own]) *
                         order_factor_[task_.derivatives.order[d]];
-#pragma GCC unroll 64
-      for (int a = 0; a < terms; ++a) {
-        solution[a] = all(0) + inverse_entry(a, own) * right_side[own];
-      }
-    }
-  }
-
-  /// The inverse times a right-hand side.
-  void by_inverse(const Pack* right_side, Pack* solution) const {
-    for (int i = 0; i < terms; ++i) solution[i] = all(0);
-    for (int a = 0; a < terms; ++a) {
-      for (int i = 0; i < terms; ++i) {
-        solution[i] = solution[i] + inverse_entry(i, a) * right_side[a];
-      }
+      inverse_.solve_one(own, right_side[own], solution);
     }
   }
 
@@ -186,8 +187,8 @@ class TaylorGroup {
   Pack at_centre(int d) const { return task_.derivatives.order[d] == 0 ? all(1) : all(0); }
 
   /// Fills the rows of some derivatives from their solutions.
-  template <int Count>
-  void weigh(int first) {
+  template <int Count, class NodeWeights>
+  void weigh(int first, NodeWeights w) {
     Pack solution[Count][terms];
     Pack centre[Count];
     for (int d = 0; d < Count; ++d) {
@@ -199,13 +200,12 @@ class TaylorGroup {
     for (int j = 1; j < size_; ++j) {
       Pack basis[terms];
       evaluate_monomials<Dim, Order>(z_ + static_cast<long>(j) * Dim, basis);
-      const Pack w = w_[j];
 #pragma GCC unroll 8
       for (int d = 0; d < Count; ++d) {
         Pack sum = basis[0] * solution[d][0];
 #pragma GCC unroll 64
         for (int a = 1; a < terms; ++a) sum = sum + basis[a] * solution[d][a];
-        sum = sum * w;
+        sum = weighted(w, j, sum);
         weight(first + d, j) = sum;
         centre[d] = centre[d] - sum;
       }
@@ -219,7 +219,7 @@ class TaylorGroup {
     if constexpr (Count > 1) {
       if (count < Count) return weigh_some<Count - 1>(first, count);
     }
-    weigh<Count>(first);
+    w_ == nullptr ? weigh<Count>(first, EqualWeights{}) : weigh<Count>(first, w_);
   }
 
   /// Corrects a row by what it leaves of the right-hand side; neither the rounding of the moment
@@ -234,13 +234,14 @@ class TaylorGroup {
       evaluate_monomials<Dim, Order>(z_ + static_cast<long>(j) * Dim, basis);
       for (int a = 0; a < terms; ++a) residual[a] = residual[a] - basis[a] * weight(d, j);
     }
-    by_inverse(residual, correction);
+    inverse_.solve(residual, correction);
     Pack centre = at_centre(d);
     for (int j = 1; j < size_; ++j) {
       evaluate_monomials<Dim, Order>(z_ + static_cast<long>(j) * Dim, basis);
       Pack sum = basis[0] * correction[0];
       for (int a = 1; a < terms; ++a) sum = sum + basis[a] * correction[a];
-      weight(d, j) = weight(d, j) + choose(delicate_, sum * w_[j], all(0));
+      if (w_ != nullptr) sum = sum * w_[j];
+      weight(d, j) = weight(d, j) + choose(delicate_, sum, all(0));
       centre = centre - weight(d, j);
     }
     rows_[d] = centre;
