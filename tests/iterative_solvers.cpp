@@ -219,7 +219,7 @@ TEST(Auto, SolvesDirectlyWhatAnIterationFailsOn) {
   EXPECT_NE(message_of<CaseError>([&] { solve(system, "bicgstab[precond=amg,iterations=150]"); }),
             "");
   const LinearSolution solution = solve(system, "auto");
-  EXPECT_EQ(solution.solver, "umfpack");
+  EXPECT_EQ(solution.solver, "mumps");
   EXPECT_LT(solution.residual, 1e-14);
 }
 
