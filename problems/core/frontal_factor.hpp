@@ -34,10 +34,9 @@ class FrontalFactor {
   struct Step {
     int begin, end;        ///< of the nodes in the order
     int rest;              ///< unknowns that stay in the front
-    int length;            ///< of a panel's vectors
     std::size_t unknowns;  ///< where those that stay begin in `fronts_`, then the pivots'
-    std::size_t block;     ///< where the factors of the pivots begin in `factors_`, then the rows
-                           ///< and the columns beside them
+    std::size_t block;     ///< where the factors of the pivots begin in `factors_`, then the panels
+                           ///< of rows and of columns beside them
   };
   class Front;
 
@@ -45,12 +44,17 @@ class FrontalFactor {
   bool has_factors_ = true;
   std::size_t front_doubles_ = 0;
   std::vector<Step> steps_;
-  std::vector<int> fronts_;   ///< unknowns of each step's front, by place
+  std::vector<int> fronts_;  ///< unknowns that stay in each step's front, by place, then its pivots
   std::vector<int> swapped_;  ///< (n) rows that changed places within a step
   LargeArray<double> factors_;
-  int longest_ = 0;  ///< most unknowns that stay in a front
+  int longest_ = 0;  ///< most unknowns that stay in a front, rounded up to tiles
 
   int pivots_of(const Step& step) const { return (step.end - step.begin) * fields_; }
+  /// Where the panel of rows begins behind a block, and that of columns.
+  std::size_t upper_of(const Step& step) const {
+    return static_cast<std::size_t>(pivots_of(step)) * pivots_of(step);
+  }
+  std::size_t lower_of(const Step& step) const;
 };
 
 }  // namespace strongpoint

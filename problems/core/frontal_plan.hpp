@@ -9,12 +9,13 @@
 namespace strongpoint {
 
 /// What happens to the front when some nodes are eliminated: nodes enter behind those that are
-/// there, then pairs of places are exchanged until the nodes to be eliminated come last.
+/// there; when others are taken out, the last ones move to their places.
 struct FrontStep {
-  int begin, end;                              ///< of the nodes eliminated, in the order
-  std::vector<int> entering;                   ///< nodes
-  std::vector<std::pair<int, int>> exchanges;  ///< places
-  std::vector<int> nodes;                      ///< by place, those eliminated last
+  int begin, end;                          ///< of the nodes eliminated, in the order
+  std::vector<int> entering;               ///< nodes
+  std::vector<int> pivots;                 ///< places of the nodes eliminated
+  std::vector<std::pair<int, int>> moves;  ///< places, old and new, of nodes that fill gaps
+  std::vector<int> nodes;                  ///< that stay, by place, then those eliminated
 };
 
 /// The steps of a frontal elimination of all nodes in an order, `at_once` nodes at a time.

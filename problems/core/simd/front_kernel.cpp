@@ -9,21 +9,70 @@ namespace {
 constexpr int tile_rows = lanes == 8 ? 8 : 4;
 constexpr int tile_packs = 3;
 constexpr int tile_columns = tile_packs * lanes;
+constexpr int front_packs = front_tile / lanes;
+constexpr int pivots_summed = 32;
 static_assert(front_tile % tile_columns == 0 && front_tile % tile_rows == 0);
 
-/// Copies the parts of the front that belong to the pivots; panels are filled up with zeros.
-void take_out(const FrontTask& t) {
+/// Numbers in a tile of a panel.
+long tile_size(const FrontTask& t) { return static_cast<long>(t.pivots) * front_tile; }
+
+double* row_of(const FrontTask& t, int row) { return t.front + static_cast<long>(row) * t.stride; }
+
+void fill_gaps(const FrontTask& t, double* row) {
+  for (int m = 0; m < t.moves; ++m) row[t.to[m]] = row[t.from[m]];
+}
+
+void take_block(const FrontTask& t) {
   for (int k = 0; k < t.pivots; ++k) {
-    const double* const row = t.front + static_cast<long>(t.rest + k) * t.stride;
-    double* const upper = t.upper + static_cast<long>(k) * t.length;
-    double* const lower = t.lower + static_cast<long>(k) * t.length;
-    for (int c = 0; c < t.rest; ++c) upper[c] = row[c];
-    for (int c = t.rest; c < t.length; ++c) upper[c] = lower[c] = 0;
-    for (int c = 0; c < t.pivots; ++c) t.block[k * t.pivots + c] = row[t.rest + c];
+    const double* const row = row_of(t, t.places[k]);
+    for (int c = 0; c < t.pivots; ++c) t.block[k * t.pivots + c] = row[t.places[c]];
   }
-  for (int r = 0; r < t.rest; ++r) {
-    const double* const row = t.front + static_cast<long>(r) * t.stride + t.rest;
-    for (int k = 0; k < t.pivots; ++k) t.lower[static_cast<long>(k) * t.length + r] = row[k];
+}
+
+/// Copies the pivots' rows, in the order in which they are eliminated.
+void take_upper(const FrontTask& t) {
+  for (int k = 0; k < t.pivots; ++k) t.rows[k] = t.places[k];
+  for (int k = 0; k < t.pivots; ++k) {
+    const int swapped = t.rows[t.swapped[k]];
+    t.rows[t.swapped[k]] = t.rows[k];
+    t.rows[k] = swapped;
+  }
+  for (int k = 0; k < t.pivots; ++k) {
+    double* const row = row_of(t, t.rows[k]);
+    fill_gaps(t, row);
+    for (int c = t.rest; c % front_tile != 0; ++c) row[c] = 0;
+    double* to = t.upper + static_cast<long>(k) * front_tile;
+    for (int c = 0; c < t.rest; c += front_tile, to += tile_size(t)) {
+      for (int q = 0; q < front_tile; q += lanes) store(to + q, load(row + c + q));
+    }
+  }
+}
+
+/// Rows whose pivots are asked for before they are read.
+constexpr int rows_ahead = 8;
+
+/// Copies the pivots' columns and closes the gaps of the front.
+void take_lower(const FrontTask& t) {
+  for (int m = 0; m < t.moves; ++m) {
+    const double* const from = row_of(t, t.from[m]);
+    double* const to = row_of(t, t.to[m]);
+    for (int c = 0; c < t.rest + t.pivots; ++c) to[c] = from[c];
+  }
+  for (int first = 0; first < t.rest; first += front_tile) {
+    double* const tile = t.lower + first / front_tile * tile_size(t);
+    for (int i = 0; i < front_tile; ++i) {
+      if (first + i >= t.rest) {
+        for (int k = 0; k < t.pivots; ++k) tile[k * front_tile + i] = 0;
+        continue;
+      }
+      double* const row = row_of(t, first + i);
+      const double* const ahead = row + rows_ahead * static_cast<long>(t.stride);
+      for (int k = 0; k < t.pivots; ++k) {
+        __builtin_prefetch(ahead + t.places[k], 1);
+        tile[k * front_tile + i] = row[t.places[k]];
+      }
+      fill_gaps(t, row);
+    }
   }
 }
 
@@ -59,8 +108,6 @@ double factorise(const FrontTask& t) {
     t.swapped[k] = best;
     if (best != k) {
       swap_rows(t.block + k * p, t.block + best * p, p);
-      swap_rows(t.upper + static_cast<long>(k) * t.length,
-                t.upper + static_cast<long>(best) * t.length, t.length);
     }
     const double* const pivot_row = t.block + k * p;
     const double inverse = 1 / pivot_row[k];
@@ -88,17 +135,17 @@ struct UpperTurned {  ///< columns of B U^-1
   double inverse(int j) const { return 1 / block[j * p + j]; }
 };
 
-/// Solves for `Rows` vectors from `first` on, one tile of columns, those before being done.
+/// Solves for `Rows` vectors from `first` on, some packs of columns, those before being done.
 template <int Rows, class Triangle>
-void solve_rows(const Triangle& triangle, int first, double* vectors, long length) {
+void solve_rows(const Triangle& triangle, int first, double* vectors) {
   Pack sums[Rows][tile_packs];
   for (int j = 0; j < Rows; ++j) {
     for (int q = 0; q < tile_packs; ++q)
-      sums[j][q] = load(vectors + (first + j) * length + q * lanes);
+      sums[j][q] = load(vectors + (first + j) * front_tile + q * lanes);
   }
   for (int i = 0; i < first; ++i) {
     Pack known[tile_packs];
-    for (int q = 0; q < tile_packs; ++q) known[q] = load(vectors + i * length + q * lanes);
+    for (int q = 0; q < tile_packs; ++q) known[q] = load(vectors + i * front_tile + q * lanes);
     for (int j = 0; j < Rows; ++j) {
       const Pack factor = all(triangle.at(i, first + j));
       for (int q = 0; q < tile_packs; ++q) sums[j][q] = sums[j][q] - factor * known[q];
@@ -112,45 +159,67 @@ void solve_rows(const Triangle& triangle, int first, double* vectors, long lengt
     const Pack inverse = all(triangle.inverse(first + j));
     for (int q = 0; q < tile_packs; ++q) {
       sums[j][q] = sums[j][q] * inverse;
-      store(vectors + (first + j) * length + q * lanes, sums[j][q]);
+      store(vectors + (first + j) * front_tile + q * lanes, sums[j][q]);
     }
   }
 }
 
 template <class Triangle>
-void solve_panel(const Triangle& triangle, int pivots, double* vectors, int length) {
+void solve_panel(const FrontTask& t, const Triangle& triangle, double* panel) {
   constexpr int rows = 4;
-  for (int c = 0; c < length; c += tile_columns) {
-    int first = 0;
-    for (; first + rows <= pivots; first += rows) {
-      solve_rows<rows>(triangle, first, vectors + c, length);
+  for (int c = 0; c < t.rest; c += front_tile, panel += tile_size(t)) {
+    for (int q = 0; q < front_tile; q += tile_columns) {
+      int first = 0;
+      for (; first + rows <= t.pivots; first += rows) solve_rows<rows>(triangle, first, panel + q);
+      for (; first < t.pivots; ++first) solve_rows<1>(triangle, first, panel + q);
     }
-    for (; first < pivots; ++first) solve_rows<1>(triangle, first, vectors + c, length);
   }
 }
 
-/// One tile of C loses the products of the panels.
-void subtract_tile(const FrontTask& t, int r, int c) {
-  double* const corner = t.front + static_cast<long>(r) * t.stride + c;
-  const double* lower = t.lower + r;
-  const double* upper = t.upper + c;
-  Pack sums[tile_rows][tile_packs];
+/// Some rows and packs of columns of the front lose the products of the panels.
+void subtract_products(int pivots, const double* lower, const double* upper, double* corner,
+                       long stride) {
+  // The next rows are on their way while these are multiplied.
   for (int i = 0; i < tile_rows; ++i) {
+    for (int q = 0; q < tile_packs; ++q)
+      __builtin_prefetch(corner + (tile_rows + i) * stride + q * lanes, 1);
+  }
+  Pack sums[tile_rows][tile_packs];
+#pragma GCC unroll 8
+  for (int i = 0; i < tile_rows; ++i) {
+#pragma GCC unroll 3
     for (int q = 0; q < tile_packs; ++q) sums[i][q] = all(0);
   }
-  for (int k = 0; k < t.pivots; ++k, lower += t.length, upper += t.length) {
+  for (int k = 0; k < pivots; ++k, lower += front_tile, upper += front_tile) {
     Pack row[tile_packs];
     for (int q = 0; q < tile_packs; ++q) row[q] = load(upper + q * lanes);
+#pragma GCC unroll 8
     for (int i = 0; i < tile_rows; ++i) {
       const Pack factor = all(lower[i]);
+#pragma GCC unroll 3
       for (int q = 0; q < tile_packs; ++q) sums[i][q] = sums[i][q] + factor * row[q];
     }
   }
-  const int rows = t.rest - r < tile_rows ? t.rest - r : tile_rows;
-  for (int i = 0; i < rows; ++i) {
+#pragma GCC unroll 8
+  for (int i = 0; i < tile_rows; ++i) {
+#pragma GCC unroll 3
     for (int q = 0; q < tile_packs; ++q) {
-      double* const at = corner + static_cast<long>(i) * t.stride + q * lanes;
+      double* const at = corner + i * stride + q * lanes;
       store(at, load(at) - sums[i][q]);
+    }
+  }
+}
+
+void subtract_panels(const FrontTask& t) {
+  const double* upper = t.upper;
+  for (int c = 0; c < t.rest; c += front_tile, upper += tile_size(t)) {
+    for (int q = 0; q < front_tile; q += tile_columns) {
+      const double* lower = t.lower;
+      for (int r = 0; r < t.rest; r += front_tile, lower += tile_size(t)) {
+        for (int i = 0; i < front_tile; i += tile_rows) {
+          subtract_products(t.pivots, lower + i, upper + q, row_of(t, r + i) + c + q, t.stride);
+        }
+      }
     }
   }
 }
@@ -158,14 +227,52 @@ void subtract_tile(const FrontTask& t, int r, int c) {
 }  // namespace
 
 void eliminate_pivots(const FrontTask& task) {
-  take_out(task);
+  take_block(task);
   *task.least_pivot = factorise(task);
   const bool is_fine = *task.least_pivot > 0;
   if (!is_fine) return;
-  solve_panel(LowerUnit{task.block, task.pivots}, task.pivots, task.upper, task.length);
-  solve_panel(UpperTurned{task.block, task.pivots}, task.pivots, task.lower, task.length);
-  for (int r = 0; r < task.rest; r += tile_rows) {
-    for (int c = 0; c < task.rest; c += tile_columns) subtract_tile(task, r, c);
+  take_upper(task);
+  take_lower(task);
+  solve_panel(task, LowerUnit{task.block, task.pivots}, task.upper);
+  solve_panel(task, UpperTurned{task.block, task.pivots}, task.lower);
+  subtract_panels(task);
+}
+
+void multiply_panel(const PanelTask& t) {
+  const double* panel = t.panel;
+  for (int r = 0; r < t.rest; r += front_tile) {
+    Pack sums[front_packs];
+    for (int q = 0; q < front_packs; ++q) sums[q] = all(0);
+    for (int k = 0; k < t.pivots; ++k, panel += front_tile) {
+      fetch_ahead(panel);
+      const Pack value = all(t.values[k]);
+      for (int q = 0; q < front_packs; ++q) sums[q] = sums[q] + value * load(panel + q * lanes);
+    }
+    for (int q = 0; q < front_packs; ++q) store(t.beside + r + q * lanes, sums[q]);
+  }
+}
+
+void subtract_turned_panel(const PanelTask& t) {
+  for (int first = 0; first < t.pivots; first += pivots_summed) {
+    const int count = t.pivots - first < pivots_summed ? t.pivots - first : pivots_summed;
+    Pack sums[pivots_summed];
+    for (int k = 0; k < count; ++k) sums[k] = all(0);
+    const double* panel = t.panel + static_cast<long>(first) * front_tile;
+    for (int r = 0; r < t.rest; r += front_tile) {
+      Pack known[front_packs];
+      for (int q = 0; q < front_packs; ++q) known[q] = load(t.beside + r + q * lanes);
+      for (int k = 0; k < count; ++k) {
+        for (int q = 0; q < front_packs; ++q) {
+          sums[k] = sums[k] + known[q] * load(panel + k * front_tile + q * lanes);
+        }
+      }
+      panel += static_cast<long>(t.pivots) * front_tile;
+    }
+    for (int k = 0; k < count; ++k) {
+      double parts[lanes];
+      store(parts, sums[k]);
+      for (int lane = 0; lane < lanes; ++lane) t.values[first + k] -= parts[lane];
+    }
   }
 }
 
