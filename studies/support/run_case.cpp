@@ -12,6 +12,7 @@
 #include "problems/core/voronoi.hpp"
 #include "studies/support/case_map.hpp"
 #include "studies/support/part_stages.hpp"
+#include "studies/support/release.hpp"
 #include "studies/support/vtk.hpp"
 
 extern "C" {
@@ -218,7 +219,7 @@ CaseResult solve_steady(const SteadyProblem<Dim>& problem, const CaseKey& key,
   StageTimes& times = result.times;
   reset_peak_memory();
   const auto made = discretise(problem, key, options, times);
-  const Discretisation<Dim>& scene = *made;
+  Discretisation<Dim>& scene = *made;
   const int field_count = static_cast<int>(problem.fields().size());
   LinearSystem system = clock.time(times.assemble, [&] {
     return assemble(scene.equations(scene.derivatives), scene.weights, scene.unknowns, field_count);
@@ -227,15 +228,15 @@ CaseResult solve_steady(const SteadyProblem<Dim>& problem, const CaseKey& key,
   if (is_iterative(key.solver)) {
     clock.time(times.solve, [&] { system.order = order_along(first_coordinates(scene)); });
   }
+  if (!options.vtk) clock.time(times.solve, [&] { release_unread(problem, scene); });
   const LinearSolution linear = clock.time(times.solve, [&] { return solve(system, key.solver); });
   times.peak_mb = peak_memory_mb();
   times.residual = linear.residual;
 
   const Solution<Dim> solution = solution_of<Dim>(scene, linear.x);
   if (options.vtk) {
-    const Choices<Dim> choices(key);
     write_vtu<Dim>(*options.vtk, key, scene.cloud,
-                   case_arrays<Dim>(problem, solution, scene, *choices.method));
+                   case_arrays<Dim>(problem, solution, scene, *Choices<Dim>(key).method));
   }
   const std::vector<std::string> names = problem.quantities();
   const std::vector<double> values = problem.measure(solution);
@@ -259,9 +260,8 @@ CaseResult run_steady_case(const CaseKey& key, const RunOptions& options) {
         CaseResult result = solve_steady<Dim>(problem, key, options);
         RunOptions again = options;
         again.vtk.reset();
-        for (int run = 1; run < options.repeat; ++run) {
+        for (int run = 1; run < options.repeat; ++run)
           result.times = fastest(result.times, solve_steady<Dim>(problem, key, again).times);
-        }
         return result;
       });
 }

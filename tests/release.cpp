@@ -1,0 +1,57 @@
+// What is freed before a system is solved is nothing that its measures read.
+#include "studies/support/release.hpp"
+
+#include <gtest/gtest.h>
+
+#include "problems/core/assembly.hpp"
+#include "tests/random_weights.hpp"
+
+namespace strongpoint {
+namespace {
+
+TEST(Release, KeepsTheWeightsOfSomeDerivatives) {
+  const Weights all = random_weights(50, 7, 5);
+  const std::vector<int> slots{1, 4};
+  const Weights some = weights_of(all, slots);
+  EXPECT_EQ(some.per_entry, 2);
+  EXPECT_EQ(some.offsets, all.offsets);
+  EXPECT_EQ(some.columns, all.columns);
+  for (int point = 0; point < all.size(); ++point) {
+    EXPECT_EQ(Eigen::MatrixXd(some.row(point)), all.row(point)(slots, Eigen::all)) << point;
+  }
+}
+
+TEST(Release, KeepsThePatternWithoutDerivatives) {
+  const Weights all = random_weights(20, 7, 5);
+  const Weights none = weights_of(all, {});
+  EXPECT_EQ(none.columns, all.columns);
+  EXPECT_TRUE(none.values.empty());
+}
+
+/// Stresses read first derivatives, and unknowns of mls are no values.
+TEST(Release, LeavesWhatIsMeasuredTheSame) {
+  for (const char* name : {"plate_hole", "poisson_square"}) {
+    for (const char* method : {"lsfdm", "mls"}) {
+      const CaseKey key{name, method, "nearest", "grid", "collocation", "umfpack", 15};
+      with_problem<SteadyProblem>(name, "steady", [&]<int Dim>(const SteadyProblem<Dim>& problem) {
+        StageTimes times;
+        const auto scene = discretise<Dim>(problem, key, RunOptions{}, times);
+        const LinearSystem system =
+            assemble(scene->equations(scene->derivatives), scene->weights, scene->unknowns,
+                     static_cast<int>(problem.fields().size()));
+        const Eigen::VectorXd x = solve(system, key.solver).x;
+        const std::vector<double> before = problem.measure(solution_of<Dim>(*scene, x));
+        const int derivatives = scene->derivatives.size();
+        release_unread(problem, *scene);
+        EXPECT_EQ(scene->derivatives.size(), derivatives) << "too little to be freed";
+        release_unread(problem, *scene, 0);
+        EXPECT_LT(scene->derivatives.size(), derivatives);
+        EXPECT_EQ(scene->weights.per_entry, scene->derivatives.size());
+        EXPECT_EQ(problem.measure(solution_of<Dim>(*scene, x)), before) << name << " " << method;
+      });
+    }
+  }
+}
+
+}  // namespace
+}  // namespace strongpoint
