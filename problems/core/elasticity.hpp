@@ -27,8 +27,7 @@ inline Lame lame_constants(double young, double poisson) {
 template <int Dim>
 MultiIndex<Dim> partial(int i, int j = -1) {
   MultiIndex<Dim> alpha{};
-  ++alpha[i];
-  if (j >= 0) ++alpha[j];
+  for (int c = 0; c < Dim; ++c) alpha[c] = (c == i ? 1 : 0) + (c == j ? 1 : 0);
   return alpha;
 }
 
