@@ -8,6 +8,7 @@
 
 #include "methods/core/polyharmonic.hpp"
 #include "methods/core/simd/path.hpp"
+#include "methods/core/spans.hpp"
 #include "tests/contract_support.hpp"
 #include "tests/simd_paths.hpp"
 
@@ -114,6 +115,87 @@ TEST(PolyharmonicBatch, MatchesThemAtAnyNumberOfPointsOffTheAnchors) {
   matches_one_by_one<2>(3, 2, false);
   matches_one_by_one<2>(5, 4, false);
   matches_one_by_one<3>(3, 2, false);
+}
+
+/// A scene with points off the anchors that have spans, all but a few.
+template <int Dim>
+TestScene<Dim> scene_with_spans(const std::string& spec, int level) {
+  TestScene<Dim> scene = make_scene<Dim>(spec, "perturbed", level, 3);
+  Sites<Dim>& sites = scene.sites;
+  scatter_points<Dim>(sites, 1.0 / level);
+  sites.spans.resize(Dim, sites.point_count());
+  for (int p = 0; p < sites.point_count(); ++p) {
+    sites.spans.col(p) = Point<Dim>::Constant(0.06 / level) * (p % 7);
+    sites.spans(0, p) *= -2;
+  }
+  return scene;
+}
+
+/// The means of weights at both ends of the spans, computed end by end.
+template <int Dim>
+Weights means_of_ends(const TestScene<Dim>& scene, const Derivatives<Dim>& derivatives) {
+  Sites<Dim> end = scene.sites;
+  end.spans.resize(Dim, 0);
+  end.points += scene.sites.spans;
+  Weights weights = scene.method->weights(end, scene.stencils, derivatives);
+  end.points -= 2 * scene.sites.spans;
+  const Weights others = scene.method->weights(end, scene.stencils, derivatives);
+  for (std::size_t i = 0; i < weights.values.size(); ++i) {
+    weights.values[i] = 0.5 * (weights.values[i] + others.values[i]);
+  }
+  return weights;
+}
+
+template <int Dim>
+void averages_over_spans(const std::string& spec, int level, double tolerance) {
+  SCOPED_TRACE(fmt::format("{}D {}", Dim, spec));
+  const TestScene<Dim> scene = scene_with_spans<Dim>(spec, level);
+  const auto derivatives = Derivatives<Dim>::between_orders(0, 2);
+  on_every_path([&] {
+    const Weights expected = means_of_ends<Dim>(scene, derivatives);
+    const Weights found = weights_on<Dim>(*scene.method, scene.sites, scene.stencils, derivatives);
+    ASSERT_EQ(found.columns, expected.columns);
+    for (int p = 0; p < found.size(); ++p) {
+      for (int d = 0; d < derivatives.size(); ++d) {
+        EXPECT_LE((found.row(p).row(d) - expected.row(p).row(d)).norm(),
+                  tolerance * expected.row(p).row(d).norm())
+            << p << ' ' << d;
+      }
+    }
+  });
+}
+
+TEST(PolyharmonicBatch, AveragesOverTheSpansOfPoints) {
+  constexpr double round_off = 1e-9;  // conditions up to 1e5 of weights that cancel in the mean
+  averages_over_spans<2>("rbf_fd", 12, round_off);
+  averages_over_spans<2>("rbf_fd[phs=5,degree=4]", 12, round_off);
+  averages_over_spans<3>("rbf_fd", 6, round_off);
+  averages_over_spans<2>("lsfdm", 12, round_off);  // end by end
+  averages_over_spans<2>("zoned", 12, round_off);
+}
+
+/// Nodes so close to a circle that squares of coordinates are nearly dependent.
+TEST(PolyharmonicBatch, AveragesOneByOneWhatItLeavesUndecided) {
+  constexpr double round_off = 1e-14;  // one by one both ways, but for the order of the mean
+  constexpr int count = 12;
+  TestScene<2> scene;
+  scene.method = make_method<2>("rbf_fd").made;
+  Points<2> nodes(2, count);
+  std::vector<int> all(count);
+  for (int i = 0; i < count; ++i) {
+    nodes.col(i) = (1 + 1e-9 * (i % 5)) * Point<2>(std::cos(0.5 * i), std::sin(0.5 * i));
+    all[i] = i;
+  }
+  scene.sites = sites_at_nodes<2>(nodes);
+  for (int a = 0; a < count; ++a) scene.stencils.push_back(a == 0 ? all : std::vector<int>{});
+  scene.sites.spans = Points<2>::Constant(2, count, 0.1);
+  const Derivatives<2> derivatives = Derivatives<2>::between_orders(1, 1);
+  const auto batch =
+      fill<2>(PolyharmonicFit<2>(3, 2), scene.sites, scene.stencils, derivatives, {0}, 64);
+  ASSERT_EQ(batch.outcomes[0], LocalOutcome::undecided);
+  const Weights found = weights_on<2>(*scene.method, scene.sites, scene.stencils, derivatives);
+  const Weights expected = means_of_ends<2>(scene, derivatives);
+  EXPECT_LE((found.row(0) - expected.row(0)).norm(), round_off * expected.row(0).norm());
 }
 
 TEST(PolyharmonicBatch, GivesTheSameBitsInAnyCompany) {

@@ -16,6 +16,7 @@
 #include "methods/core/method.hpp"
 #include "methods/core/parallel_errors.hpp"
 #include "methods/core/stencil_batch.hpp"
+#include "methods/core/stencil_weights.hpp"
 
 namespace strongpoint {
 
@@ -56,6 +57,12 @@ concept ConditionBoundsKernel = LocalKernel<Kernel, Dim> &&
   {kernel.bound_conditions(sites, anchors, stencils, first, scaling, norm, work, bounds)};
 };
 
+/// A kernel whose `fill_batch` averages over the spans of points.
+template <class Kernel>
+concept SpanKernel = requires {
+  requires Kernel::reads_spans;
+};
+
 /// A method whose weights come from a kernel, stencil by stencil: a static loop over the anchors,
 /// parallel, with one workspace a thread and no allocation once the workspaces have grown.
 template <int Dim, class Kernel>
@@ -82,6 +89,7 @@ class LocalMethod : public Method<Dim> {
   std::string unsupported(const Derivatives<Dim>& derivatives) const override {
     return kernel_.unsupported(derivatives);
   }
+  bool reads_spans() const override { return SpanKernel<Kernel>; }
   Weights weights(const Sites<Dim>& sites, const Stencils& stencils,
                   const Derivatives<Dim>& derivatives) const override;
   std::vector<double> condition(const Sites<Dim>& sites, std::span<const int> anchors,
@@ -95,8 +103,12 @@ class LocalMethod : public Method<Dim> {
   Kernel kernel_;
   Traits traits_;
 
-  /// Throws CaseError when something that the method needs was not prepared.
+  /// Throws CaseError when something that the method needs was not prepared, std::logic_error when
+  /// there is what it does not read.
   void check_needs(const Sites<Dim>& sites) const {
+    if (sites.spans.cols() > 0 && !reads_spans()) {
+      throw std::logic_error(traits_.name + " reads no spans of points; call weights_on");
+    }
     if (traits_.needs.volumes && sites.volumes.size() != sites.node_count()) {
       throw CaseError(traits_.name + ": cell volumes are needed but the sites hold none");
     }
@@ -110,42 +122,24 @@ class LocalMethod : public Method<Dim> {
   /// Anchors handed to a thread, and to a kernel's batch, at a time.
   static constexpr int block_size = 64;
 
+  /// Writes the weights at a place, in units of the stencil radius, the anchor being the origin.
+  LocalOutcome evaluate(const LocalStencil<Dim>& local, typename Kernel::Workspace& work,
+                        const Point<Dim>& offset, const Derivatives<Dim>& derivatives,
+                        Eigen::Map<Eigen::MatrixXd> row) const {
+    using Evaluated = decltype(kernel_.evaluate(local, work, offset, derivatives, row));
+    if constexpr (std::is_void_v<Evaluated>) {
+      kernel_.evaluate(local, work, offset, derivatives, row);
+      return LocalOutcome::ok;
+    } else {
+      return kernel_.evaluate(local, work, offset, derivatives, row);
+    }
+  }
   /// Writes the weights of all points of one anchor.
   LocalOutcome fill(const Sites<Dim>& sites, const Stencils& stencils, int anchor,
                     std::span<const int> points, const Derivatives<Dim>& derivatives,
                     LocalStencil<Dim>& local, typename Kernel::Workspace& work,
                     Weights& weights) const;
 };
-
-/// An empty pattern for the weights of all points: each row is the stencil of the point's anchor.
-template <int Dim>
-Weights weights_on_stencils(const Sites<Dim>& sites, const Stencils& stencils, int per_entry) {
-  Weights weights;
-  weights.per_entry = per_entry;
-  const int count = sites.point_count();
-  weights.offsets.assign(sites.point_anchor.size() + 1, 0);
-  for (int p = 0; p < count; ++p) {
-    const std::int64_t* const list = stencils.offsets.data() + sites.point_anchor[p];
-    weights.offsets[p + 1] = weights.offsets[p] + list[1] - list[0];
-  }
-  weights.columns.resize(weights.offsets.back());
-  constexpr int at_once = 256;
-#pragma omp parallel for schedule(static)
-  for (int begin = 0; begin < count; begin += at_once) {
-    const int end = std::min(count - begin, at_once) + begin;
-    for (int p = begin, next = p; p < end; p = next) {
-      const int anchor = sites.point_anchor[p];
-      do {
-        ++next;  // stencils of anchors in a row lie in one piece
-      } while (next < end && sites.point_anchor[next] == anchor + next - p);
-      const auto* const nodes = stencils.nodes.data();
-      std::copy(nodes + stencils.offsets[anchor], nodes + stencils.offsets[anchor + next - p],
-                weights.columns.begin() + weights.offsets[p]);
-    }
-  }
-  weights.values.resize(weights.offsets.back() * per_entry);
-  return weights;
-}
 
 template <int Dim, class Kernel>
 requires LocalKernel<Kernel, Dim> LocalOutcome LocalMethod<Dim, Kernel>::fill(
@@ -159,13 +153,18 @@ const {
   for (int p : points) {
     const Point<Dim> offset = (sites.points.col(p) - sites.anchors.col(anchor)) / local.radius;
     Eigen::Map<Eigen::MatrixXd> row = weights.row(p);
-    using Evaluated = decltype(kernel_.evaluate(local, work, offset, derivatives, row));
-    if constexpr (std::is_void_v<Evaluated>) {
-      kernel_.evaluate(local, work, offset, derivatives, row);
+    if (sites.spans.cols() == 0) {
+      outcome = evaluate(local, work, offset, derivatives, row);
     } else {
-      outcome = kernel_.evaluate(local, work, offset, derivatives, row);
-      if (outcome != LocalOutcome::ok) return outcome;
+      const Point<Dim> span = sites.spans.col(p) / local.radius;
+      outcome = evaluate(local, work, offset - span, derivatives, row);
+      const Eigen::MatrixXd at_one_end = row;
+      if (outcome == LocalOutcome::ok) {
+        outcome = evaluate(local, work, offset + span, derivatives, row);
+      }
+      row = 0.5 * (row + at_one_end);
     }
+    if (outcome != LocalOutcome::ok) return outcome;
     for (int d = 0; d < derivatives.size(); ++d) {
       row.row(d) *= std::pow(local.radius, -order_of<Dim>(derivatives[d]));
     }

@@ -54,6 +54,9 @@ class Method {
   /// Why these derivatives cannot be given, in a sentence; empty when they can. Asked for no
   /// derivative at all, why the method does not exist in this dimension.
   virtual std::string unsupported(const Derivatives<Dim>& derivatives) const = 0;
+  /// Whether `weights` reads the spans of points, which it may not be given otherwise;
+  /// `weights_on` (spans.hpp) serves any method.
+  virtual bool reads_spans() const { return false; }
   /// Weights of every evaluation point. Throws CaseError naming the lowest node whose stencil is
   /// degenerate, too small or holds coincident nodes.
   virtual Weights weights(const Sites<Dim>& sites, const Stencils& stencils,

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "methods/core/error.hpp"
+#include "methods/core/spans.hpp"
 
 namespace strongpoint {
 namespace {
@@ -56,6 +57,7 @@ void fill_sites(const Sites<Dim>& all, const std::vector<int>& local_node,
   sites.nodes = columns<Dim>(all.nodes, part.nodes);
   sites.anchors = columns<Dim>(all.anchors, part.anchors);
   sites.points = columns<Dim>(all.points, part.points);
+  if (all.spans.cols() > 0) sites.spans = columns<Dim>(all.spans, part.points);
   for (int a : part.anchors) {
     const int node = all.anchor_node[a];
     sites.anchor_node.push_back(node < 0 ? -1 : local_node[node]);
@@ -157,7 +159,7 @@ Weights join_weights(const std::vector<PartSites<Dim>>& parts,
 template <int Dim>
 Weights weights_by_part(const Method<Dim>& method, const Sites<Dim>& sites,
                         const Stencils& stencils, const Derivatives<Dim>& derivatives) {
-  if (sites.part_blocks.empty()) return method.weights(sites, stencils, derivatives);
+  if (sites.part_blocks.empty()) return weights_on(method, sites, stencils, derivatives);
   std::vector<int> anchors(static_cast<std::size_t>(stencils.size()));
   std::iota(anchors.begin(), anchors.end(), 0);
   const std::vector<PartSites<Dim>> parts = split_by_part(sites);
@@ -165,7 +167,7 @@ Weights weights_by_part(const Method<Dim>& method, const Sites<Dim>& sites,
   weights.reserve(parts.size());
   for (const PartSites<Dim>& part : parts) {
     const PartStencils<Dim> own(part, anchors, stencils);
-    weights.push_back(method.weights(part.sites, own.stencils, derivatives));
+    weights.push_back(weights_on(method, part.sites, own.stencils, derivatives));
   }
   return join_weights(parts, weights);
 }

@@ -33,6 +33,8 @@ class PolyharmonicFit {
     PolyharmonicBatch<Dim> batch;
   };
 
+  static constexpr bool reads_spans = true;
+
   /// Throws UsageError unless phs is odd and the degree is at least (phs - 1) / 2.
   PolyharmonicFit(int phs, int degree);
 

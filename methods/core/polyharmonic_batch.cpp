@@ -54,10 +54,12 @@ void PolyharmonicBatch<Dim>::fill(const StencilBatch<Dim>& batch, Weights& weigh
   const auto size_of = [&](int i) {
     return static_cast<int>(batch.stencils[batch.anchors[i]].size());
   };
+  const auto points_of = [&](int i) { return batch.points[batch.anchors[i]].size(); };
   order_.resize(batch.anchors.size());
   std::iota(order_.begin(), order_.end(), 0);
   std::sort(order_.begin(), order_.end(), [&](int a, int b) {
-    return size_of(a) != size_of(b) ? size_of(a) < size_of(b) : a < b;
+    if (size_of(a) != size_of(b)) return size_of(a) < size_of(b);
+    return points_of(a) != points_of(b) ? points_of(a) < points_of(b) : a < b;
   });
   for (auto begin = order_.begin(); begin != order_.end();) {
     const int size = size_of(*begin);
@@ -74,6 +76,7 @@ void PolyharmonicBatch<Dim>::fill(const StencilBatch<Dim>& batch, Weights& weigh
                      .count = static_cast<int>(chosen_.size()),
                      .size = size};
       task_.points = batch.sites.points.data();
+      task_.spans = batch.sites.spans.cols() > 0 ? batch.sites.spans.data() : nullptr;
       task_.point_offsets = batch.points.offsets.data();
       task_.point_ids = batch.points.nodes.data();
       task_.values = weights.values.data();

@@ -57,6 +57,8 @@ struct Sites {
   std::vector<std::uint8_t> wanted;  ///< (A) 0: no derivative is needed, the stencil stays empty
   Points<Dim> points;                ///< (Dim, P) derivatives are evaluated here
   std::vector<int> point_anchor;     ///< (P) anchor of each point
+  Points<Dim> spans;                 ///< (Dim, P), or empty for zeros: the weights of a point are
+                                     ///< the means of those at point + span and point - span
   Eigen::VectorXd volumes;           ///< (N) cell measures, empty unless needed
   Eigen::VectorXd spacing;           ///< (A) local node spacing, empty unless needed
   std::optional<IndexBlock<Dim>> block;  ///< structured clouds only

@@ -6,6 +6,7 @@
 
 #include "methods/core/neighbours.hpp"
 #include "methods/core/spacing.hpp"
+#include "methods/core/spans.hpp"
 #include "problems/core/assembly.hpp"
 #include "problems/core/layout.hpp"
 #include "problems/core/visibility.hpp"
@@ -165,7 +166,7 @@ void compute_weights(Discretisation<Dim>& scene, const Domain<Dim>& domain,
   }
   choose_stencils<Dim>(scene, domain, choices, options, clock, times);
   scene.weights = clock.time(times.weights, [&] {
-    return choices.method->weights(scene.sites, scene.stencils, scene.derivatives);
+    return weights_on(*choices.method, scene.sites, scene.stencils, scene.derivatives);
   });
 }
 

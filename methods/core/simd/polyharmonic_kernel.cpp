@@ -58,52 +58,72 @@ unsigned factorise_projected(const PolyharmonicTask& task, const PolyharmonicGro
   return factorise_definite(rest, group.projected, group.inverse_pivots, definite_tolerance);
 }
 
+/// Where derivatives are taken, about the anchor and over R: their means over one or two places.
+template <int Dim>
+struct Ends {
+  Pack offsets[2][Dim];
+  int count;
+  double share;  ///< 1 / count
+};
+
 /// Right-hand sides of all derivatives at a point: of the polynomials, in columns `first` and
 /// following.
 template <int Dim>
 void fill_constraints(const PolyharmonicTask& task, const PolyharmonicGroup& group,
-                      const Pack* offset, int first) {
+                      const Ends<Dim>& ends, int first) {
   for (int d = 0; d < task.derivatives; ++d) {
     for (int a = 0; a < task.terms; ++a) {
       const double factor = task.factors[d * task.terms + a];
-      Pack& value = group.weights(a, first + d);
-      value = all(factor);
-      for (int c = 0; c < Dim && factor != 0; ++c) {
-        const int exponent = task.exponents[a * Dim + c] - task.orders[d * Dim + c];
-        for (int k = 0; k < exponent; ++k) value = value * offset[c];
+      Pack sum = all(0);
+      for (int e = 0; e < ends.count && factor != 0; ++e) {
+        Pack value = all(factor * ends.share);
+        for (int c = 0; c < Dim; ++c) {
+          const int exponent = task.exponents[a * Dim + c] - task.orders[d * Dim + c];
+          for (int k = 0; k < exponent; ++k) value = value * ends.offsets[e][c];
+        }
+        sum = sum + value;
       }
+      group.weights(a, first + d) = sum;
     }
   }
 }
 
-/// The same of r^phs, whose derivatives are taken as zero at r = 0.
+/// The derivatives of r^phs, x from a node, which are taken as zero at r = 0, times a factor.
 template <int Dim>
-void fill_radial(const PolyharmonicTask& task, const PolyharmonicGroup& group, const Pack* offset,
-                 int first) {
+void add_radial(const PolyharmonicTask& task, const Pack* x, int order, double factor, Pack* sums,
+                long step) {
   constexpr int highest = 12;  // above phs, and derivatives are of lower orders
+  Pack square = all(0);
+  for (int c = 0; c < Dim; ++c) square = square + x[c] * x[c];
+  const Pack inverse = all(1) / choose(less(all(0), square), square, all(1));
+  Pack f[highest];
+  f[0] = odd_power(square, task.phs / 2) * all(factor);
+  for (int k = 0; k < order; ++k) f[k + 1] = f[k] * inverse * all(0.5 * task.phs - k);
+  for (int d = 0; d < task.derivatives; ++d) {
+    Pack sum = sums[d * step];
+    for (int t = task.radial_offsets[d]; t < task.radial_offsets[d + 1]; ++t) {
+      const RadialTerm& term = task.radial[t];
+      const Pack power = monomial<Dim>(x, term.exponents);
+      sum = sum + all(term.coefficient) * power * f[term.outer];
+    }
+    sums[d * step] = sum;
+  }
+}
+
+/// The right-hand sides of r^phs.
+template <int Dim>
+void fill_radial(const PolyharmonicTask& task, const PolyharmonicGroup& group,
+                 const Ends<Dim>& ends, int first) {
   int order = 0;
   for (int t = 0; t < task.radial_offsets[task.derivatives]; ++t) {
     if (task.radial[t].outer > order) order = task.radial[t].outer;
   }
   for (int i = 0; i < task.table.size; ++i) {
-    Pack x[Dim];
-    Pack square = all(0);
-    for (int c = 0; c < Dim; ++c) {
-      x[c] = offset[c] - group.stencils.z[i * Dim + c];
-      square = square + x[c] * x[c];
-    }
-    const Pack inverse = all(1) / choose(less(all(0), square), square, all(1));
-    Pack f[highest];
-    f[0] = odd_power(square, task.phs / 2);
-    for (int k = 0; k < order; ++k) f[k + 1] = f[k] * inverse * all(0.5 * task.phs - k);
-    for (int d = 0; d < task.derivatives; ++d) {
-      Pack sum = all(0);
-      for (int t = task.radial_offsets[d]; t < task.radial_offsets[d + 1]; ++t) {
-        const RadialTerm& term = task.radial[t];
-        const Pack power = monomial<Dim>(x, term.exponents);
-        sum = sum + all(term.coefficient) * power * f[term.outer];
-      }
-      group.radial(i, first + d) = sum;
+    for (int d = 0; d < task.derivatives; ++d) group.radial(i, first + d) = all(0);
+    for (int e = 0; e < ends.count; ++e) {
+      Pack x[Dim];
+      for (int c = 0; c < Dim; ++c) x[c] = ends.offsets[e][c] - group.stencils.z[i * Dim + c];
+      add_radial<Dim>(task, x, order, ends.share, &group.radial(i, first), group.radial.column);
     }
   }
 }
@@ -169,49 +189,73 @@ void fetch_row(const PolyharmonicTask& task, int point) {
   __builtin_prefetch(row + count - 1, 1);
 }
 
-/// Evaluates all points of a group's anchors, some at a time; lanes with fewer points repeat their
-/// last one. Gives the bits of lanes where all is finite, of those in `good`, which are written.
-template <int Dim>
-unsigned evaluate(const PolyharmonicTask& task, const PolyharmonicGroup& group, unsigned good) {
-  const int at_a_time = polyharmonic_columns(task.derivatives) / task.derivatives;
+/// Evaluation points of a group's anchors.
+struct GroupPoints {
   const int* ids[lanes];
   int counts[lanes];
   int most = 0;
-  for (int lane = 0; lane < lanes; ++lane) {
-    const std::int64_t* const begin = task.point_offsets + group.stencils.anchors[lane];
-    ids[lane] = task.point_ids + begin[0];
-    counts[lane] = static_cast<int>(begin[1] - begin[0]);
-    if (counts[lane] > most) most = counts[lane];
+
+  GroupPoints(const PolyharmonicTask& task, const PolyharmonicGroup& group) {
+    for (int lane = 0; lane < lanes; ++lane) {
+      const std::int64_t* const begin = task.point_offsets + group.stencils.anchors[lane];
+      ids[lane] = task.point_ids + begin[0];
+      counts[lane] = static_cast<int>(begin[1] - begin[0]);
+      if (counts[lane] > most) most = counts[lane];
+    }
   }
+};
+
+/// Where point q of each anchor lies; lanes with fewer points repeat their last one.
+template <int Dim>
+Ends<Dim> ends_of(const PolyharmonicTask& task, const PolyharmonicGroup& group,
+                  const GroupPoints& points, int q) {
+  Ends<Dim> ends;
+  ends.count = task.spans == nullptr ? 1 : 2;
+  ends.share = task.spans == nullptr ? 1 : 0.5;
   const Pack inverse = all(1) / group.stencils.radius;
+  for (int c = 0; c < Dim; ++c) {
+    double along[lanes];
+    double half[lanes];
+    for (int lane = 0; lane < lanes; ++lane) {
+      const int last = points.counts[lane] - 1;
+      const long point = last < 0 ? -1 : points.ids[lane][q < last ? q : last];
+      const double anchor =
+          task.table.anchors[static_cast<long>(group.stencils.anchors[lane]) * Dim + c];
+      along[lane] = point < 0 ? 0 : task.points[point * Dim + c] - anchor;
+      half[lane] = point < 0 || task.spans == nullptr ? 0 : task.spans[point * Dim + c];
+    }
+    const Pack middle = load(along) * inverse;
+    const Pack span = load(half) * inverse;
+    ends.offsets[0][c] = task.spans == nullptr ? middle : middle - span;
+    ends.offsets[1][c] = middle + span;
+  }
+  return ends;
+}
+
+/// Evaluates all points of a group's anchors, some at a time. Gives the bits of lanes where all is
+/// finite, of those in `good`, which are written.
+template <int Dim>
+unsigned evaluate(const PolyharmonicTask& task, const PolyharmonicGroup& group, unsigned good) {
+  const int at_a_time = polyharmonic_columns(task.derivatives) / task.derivatives;
+  const GroupPoints all_points(task, group);
+  const int most = all_points.most;
   for (int begin = 0; begin < most; begin += at_a_time) {
     const int points = most - begin < at_a_time ? most - begin : at_a_time;
     for (int lane = 0; lane < lanes; ++lane) {
-      for (int q = begin; q < begin + points && q < counts[lane]; ++q)
-        fetch_row(task, ids[lane][q]);
+      for (int q = begin; q < begin + points && q < all_points.counts[lane]; ++q)
+        fetch_row(task, all_points.ids[lane][q]);
     }
     for (int q = 0; q < points; ++q) {
-      Pack offset[Dim];
-      for (int c = 0; c < Dim; ++c) {
-        double along[lanes];
-        for (int lane = 0; lane < lanes; ++lane) {
-          const int last = counts[lane] - 1;
-          const long point = last < 0 ? -1 : ids[lane][begin + q < last ? begin + q : last];
-          const double anchor =
-              task.table.anchors[static_cast<long>(group.stencils.anchors[lane]) * Dim + c];
-          along[lane] = point < 0 ? 0 : task.points[point * Dim + c] - anchor;
-        }
-        offset[c] = load(along) * inverse;
-      }
-      fill_constraints<Dim>(task, group, offset, q * task.derivatives);
-      fill_radial<Dim>(task, group, offset, q * task.derivatives);
+      const Ends<Dim> ends = ends_of<Dim>(task, group, all_points, begin + q);
+      fill_constraints<Dim>(task, group, ends, q * task.derivatives);
+      fill_radial<Dim>(task, group, ends, q * task.derivatives);
     }
     solve(task, group, points * task.derivatives);
     good &= scale<Dim>(task, group, points * task.derivatives);
     for (int lane = 0; lane < lanes; ++lane) {
       if ((good >> lane & 1U) == 0) continue;
-      for (int q = 0; q < points && begin + q < counts[lane]; ++q) {
-        write(task, group, lane, ids[lane][begin + q], q * task.derivatives);
+      for (int q = 0; q < points && begin + q < all_points.counts[lane]; ++q) {
+        write(task, group, lane, all_points.ids[lane][begin + q], q * task.derivatives);
       }
     }
   }

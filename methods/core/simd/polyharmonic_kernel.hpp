@@ -30,6 +30,7 @@ struct PolyharmonicTask {
   const double* factors;      ///< (m, D) a!/(a - d)! of d^d z^a, zero where it vanishes
 
   const double* points;               ///< (Dim, P) evaluation points
+  const double* spans;                ///< (Dim, P) of the sites, null: zeros
   const std::int64_t* point_offsets;  ///< (A + 1) of the anchors in `point_ids`
   const int* point_ids;               ///< evaluation points, by anchor
 
