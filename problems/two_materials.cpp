@@ -101,6 +101,7 @@ class TwoMaterials final : public ElasticProblem<2> {
     return at(place.x[0]);
   }
   bool varies() const override { return strategy_ == Strategy::variable; }
+  bool has_even_flux() const override { return strategy_ == Strategy::patch; }
   LameGradient<2> material_gradient(const Place<2>& place) const override {
     const double step = place.spacing;
     const Lame before = at(place.x[0] - step);

@@ -1,6 +1,8 @@
 // Forms of the discrete system: patch tests, symmetry planes, what they decline, convergence.
 #include <gtest/gtest.h>
 
+#include "problems/core/form.hpp"
+#include "problems/core/layout.hpp"
 #include "studies/support/run_case.hpp"
 #include "tests/strain_problem.hpp"
 
@@ -71,6 +73,60 @@ TEST(Forms, FluxLoadsCurvedSidesInSpaceBySignedAreas) {
   const Domain<3>& shell = std::get<2>(sphere.made)->domain();
   const HomogeneousStrain<3> problem(shell, {"x0"});
   EXPECT_LT(largest_error<3>(problem, "flux[symmetry=rows]", "rbf_fd", "scattered", 9), 5e-6);
+}
+
+/// Says of itself that coefficients may differ along a face, so that each point is on its own.
+class StrainPointByPoint final : public HomogeneousStrain<2> {
+ public:
+  using HomogeneousStrain<2>::HomogeneousStrain;
+  bool has_even_flux() const override { return false; }
+};
+
+/// What a row reads of the fields x^3 + 2 y^3 and x^2 y.
+double value_of(const EquationRow& row, const Plan<2>& plan) {
+  const auto gradient = [](const Point<2>& x, int field, int axis) {
+    if (field == 0) return axis == 0 ? 3 * x[0] * x[0] : 6 * x[1] * x[1];
+    return axis == 0 ? 2 * x[0] * x[1] : x[0] * x[0];
+  };
+  const auto value = [](const Point<2>& x, int field) {
+    return field == 0 ? x[0] * x[0] * x[0] + 2 * x[1] * x[1] * x[1] : x[0] * x[0] * x[1];
+  };
+  double sum = 0;
+  for (const Term& term : row) {
+    const Point<2> x = plan.sites.points.col(term.point);
+    if (term.derivative == value_only) {
+      sum += term.coefficient * value(x, term.field);
+      continue;
+    }
+    const int axis = plan.derivatives[term.derivative][0] == 1 ? 0 : 1;
+    const Point<2> span =
+        plan.sites.spans.cols() > 0 ? Point<2>(plan.sites.spans.col(term.point)) : Point<2>(0, 0);
+    sum += term.coefficient * 0.5 *
+           (gradient(x + span, term.field, axis) + gradient(x - span, term.field, axis));
+  }
+  return sum;
+}
+
+TEST(Forms, FluxTakesMeansOverFacesWhereCoefficientsAreEven) {
+  constexpr double round_off = 1e-14;  // of fluxes up to 1 through faces of 0.1
+  const UnitCube<2> square;
+  const HomogeneousStrain<2> even(square, {"left"});
+  const StrainPointByPoint uneven(square, {"left"});
+  const PointCloud<2> cloud = make_cloud<2>(square, "scattered", LayoutRequest{12, 1});
+  const auto method = make_method<2>("rbf_fd").made;
+  for (const char* form : {"flux", "flux[faces=both]", "flux[gauss=3]"}) {
+    const Plan<2> means = make_form<2>(form)->plan(even, cloud, *method);
+    const Plan<2> points = make_form<2>(form)->plan(uneven, cloud, *method);
+    EXPECT_EQ(points.sites.spans.cols(), 0);
+    const bool has_pairs = means.sites.point_count() < points.sites.point_count();
+    EXPECT_EQ(has_pairs, std::string(form) != "flux[gauss=3]");
+    const EquationList rows = means.equations(means.derivatives);
+    const EquationList expected = points.equations(points.derivatives);
+    ASSERT_EQ(rows.size(), expected.size());
+    for (int r = 0; r < rows.size(); ++r) {
+      EXPECT_NEAR(value_of(rows.row(r), means), value_of(expected.row(r), points), round_off) << r;
+    }
+  }
 }
 
 TEST(Forms, MirrorNodesAcrossSymmetryPlanes) {

@@ -12,7 +12,7 @@ namespace strongpoint {
 /// displacements known on some sides, tractions on all others, normal displacements of zero on
 /// symmetry planes.
 template <int Dim>
-class HomogeneousStrain final : public ElasticProblem<Dim> {
+class HomogeneousStrain : public ElasticProblem<Dim> {
  public:
   using Tensor = Eigen::Matrix<double, Dim, Dim>;
 

@@ -59,6 +59,7 @@ class ElasticProblem : public FluxProblem<Dim> {
   Derivatives<Dim> flux_derivatives() const override {
     return Derivatives<Dim>::between_orders(is_mixed() ? 0 : 1, 1);
   }
+  bool has_even_flux() const override { return !varies(); }
   bool has_flux(int field) const override { return field < Dim; }
   void governing(const Place<Dim>& place, EquationWriter<Dim>& write) const override;
   void boundary(const Node<Dim>& node, EquationWriter<Dim>& write) const override;

@@ -20,6 +20,8 @@ class FluxProblem : public SteadyProblem<Dim> {
   virtual Derivatives<Dim> flux_derivatives() const {
     return Derivatives<Dim>::between_orders(1, 1);
   }
+  /// True when the coefficients of a flux are the same at all places of a patch.
+  virtual bool has_even_flux() const { return false; }
   /// False for a field whose equation is no balance of a flux and holds point by point.
   virtual bool has_flux(int) const { return true; }
   /// The source f_i at a place.

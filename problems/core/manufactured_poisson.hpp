@@ -45,6 +45,7 @@ class ManufacturedPoisson final : public FluxProblem<Dim> {
             EquationWriter<Dim>& write) const override {
     for (int c = 0; c < Dim; ++c) write.add(0, partial<Dim>(c), direction[c]);
   }
+  bool has_even_flux() const override { return true; }
   double source(int, const Place<Dim>& place) const override {
     return exact_derivatives<Dim>(Exact{}, place.x, laplacian_).sum();
   }

@@ -53,11 +53,20 @@ class CellBalances {
         face_stencils_(face_stencils),
         fields_(static_cast<int>(problem.fields().size())),
         fluxes_(cloud.size()) {
-    std::vector<Point<Dim>> places;
+    std::vector<Point<Dim>> places, spans;
     for (int i = 0; i < cloud.size(); ++i) {
-      for (const FacePoint<Dim>& face : faces_.of(i)) {
+      const std::span<const FacePoint<Dim>> points = faces_.of(i);
+      for (std::size_t p = 0; p < points.size(); ++p) {
+        FacePoint<Dim> face = points[p];
         const double share = share_of(i, face);
         if (share == 0) continue;
+        spans.push_back(Point<Dim>::Zero());
+        if (is_pair(points.subspan(p))) {
+          ++p;
+          spans.back() = 0.5 * (points[p].x - face.x);
+          face.x += spans.back();
+          face.area += points[p].area;
+        }
         const int point = sites.point_count() + static_cast<int>(places.size());
         places.push_back(face.x);
         sites.point_anchor.push_back(i);
@@ -66,11 +75,7 @@ class CellBalances {
         if (face.neighbour >= 0) fluxes_[face.neighbour].push_back({point, face.x, -area, -1});
       }
     }
-    const int nodes = sites.point_count();
-    sites.points.conservativeResize(Eigen::NoChange, nodes + static_cast<int>(places.size()));
-    for (std::size_t p = 0; p < places.size(); ++p) {
-      sites.points.col(nodes + static_cast<int>(p)) = places[p];
-    }
+    append_points(places, spans, sites);
   }
 
   /// True when some field has a balance at a node, and not a given value or an equation of its own.
@@ -116,6 +121,30 @@ class CellBalances {
   bool has_balance(int node, int field) const {
     return problem_.has_flux(field) &&
            value_mark(problem_, field, cloud_.marks_of(node)) == nullptr;
+  }
+
+  /// Whether the first two of some points are those of a face between two cells, equal in area, so
+  /// that the fluxes through them are the mean of both.
+  bool is_pair(std::span<const FacePoint<Dim>> points) const {
+    if (!problem_.has_even_flux() || points.size() < 2) return false;
+    constexpr double round_off = 1e-12;
+    const FacePoint<Dim>& a = points[0];
+    const FacePoint<Dim>& b = points[1];
+    return a.neighbour >= 0 && a.neighbour == b.neighbour &&
+           (a.area - b.area).norm() <= round_off * a.area.norm();
+  }
+
+  static void append_points(std::span<const Point<Dim>> places, std::span<const Point<Dim>> spans,
+                            Sites<Dim>& sites) {
+    const int before = sites.point_count();
+    const int after = before + static_cast<int>(places.size());
+    sites.points.conservativeResize(Eigen::NoChange, after);
+    sites.spans = Points<Dim>::Zero(Dim, after);
+    for (int p = before; p < after; ++p) {
+      sites.points.col(p) = places[p - before];
+      sites.spans.col(p) = spans[p - before];
+    }
+    if (sites.spans.isZero(0)) sites.spans.resize(Dim, 0);
   }
 
   /// How much the stencil of a cell counts at a point of its boundary.
