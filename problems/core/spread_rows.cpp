@@ -47,6 +47,45 @@ void add_all_weighted(int fields, int derivatives, const double* weights, std::s
   }
 }
 
+/// values(p_j, f) += the derivatives of node j times the coefficients of field f, p_j being its
+/// place.
+template <int Fields, int Derivatives>
+void add_weighted_at(const double* weights, std::span<const int> places, const double* coefficients,
+                     double* values) {
+  double known[Fields * Derivatives];
+  std::copy_n(coefficients, Fields * Derivatives, known);
+  for (const int place : places) {
+    for (int f = 0; f < Fields; ++f) {
+      double sum = values[place * Fields + f];
+      for (int d = 0; d < Derivatives; ++d) sum += known[f * Derivatives + d] * weights[d];
+      values[place * Fields + f] = sum;
+    }
+    weights += Derivatives;
+  }
+}
+
+/// The same for any numbers of fields and derivatives.
+void add_all_weighted_at(int fields, int derivatives, const double* weights,
+                         std::span<const int> places, const double* coefficients, double* values) {
+  if (fields == 2 && derivatives == 2) {
+    return add_weighted_at<2, 2>(weights, places, coefficients, values);
+  }
+  if (fields == 1 && derivatives == 2) {
+    return add_weighted_at<1, 2>(weights, places, coefficients, values);
+  }
+  if (fields == 3 && derivatives == 3) {
+    return add_weighted_at<3, 3>(weights, places, coefficients, values);
+  }
+  for (const int place : places) {
+    for (int f = 0; f < fields; ++f) {
+      for (int d = 0; d < derivatives; ++d) {
+        values[place * fields + f] += coefficients[f * derivatives + d] * weights[d];
+      }
+    }
+    weights += derivatives;
+  }
+}
+
 }  // namespace
 
 bool SpreadRowMaker::has_same_stencil(int a, int b) const {
@@ -111,11 +150,82 @@ std::int64_t SpreadRowMaker::insert_columns() {
   return count;
 }
 
+/// True when all groups are stencils whose nodes are unknowns with all their fields.
+bool SpreadRowMaker::has_whole_nodes() const {
+  const std::uint64_t every_field = ~std::uint64_t{0} >> (64 - sources_.fields);
+  return sources_.unknowns.is_identity() &&
+         std::all_of(groups_.begin(), groups_.end(), [=](const Group& group) {
+           return !group.is_value && group.fields == every_field;
+         });
+}
+
+std::int64_t SpreadRowMaker::count_nodes() {
+  seen_.resize(sources_.unknowns.count, 0);
+  ++stamp_;
+  std::int64_t count = 0;
+  for (const Group& group : groups_) {
+    for (const int node : sources_.weights.nodes(group.first)) {
+      count += seen_[node] == stamp_ ? 0 : 1;
+      seen_[node] = stamp_;
+    }
+  }
+  return count;
+}
+
+/// Lists the columns of whole nodes, and the places of each group's nodes among these.
+void SpreadRowMaker::list_nodes() {
+  if (!nodes_.has_room()) nodes_.resize(sources_.unknowns.count);
+  place_.resize(sources_.unknowns.count);
+  std::size_t all = 0;
+  for (const Group& group : groups_) {
+    const std::span<const int> nodes = sources_.weights.nodes(group.first);
+    for (const int node : nodes) nodes_.insert(node);
+    all += nodes.size();
+  }
+  columns_.clear();
+  int count = 0;
+  nodes_.drain([&](std::int64_t node) {
+    place_[node] = count++;
+    for (int f = 0; f < sources_.fields; ++f) columns_.push_back(node * sources_.fields + f);
+  });
+  places_.resize(all);
+  int* next = places_.data();
+  for (const Group& group : groups_) {
+    for (const int node : sources_.weights.nodes(group.first)) *next++ = place_[node];
+  }
+}
+
+/// Adds up a row of whole nodes.
+void SpreadRowMaker::add_nodes(const Term* terms) {
+  const Weights& weights = sources_.weights;
+  const int fields = sources_.fields;
+  const int derivatives = weights.per_entry;
+  values_.assign(columns_.size(), 0.0);
+  const int* places = places_.data();
+  for (std::size_t r = 0; r < readings_.size(); ++r) {
+    const Reading& reading = readings_[r];
+    const std::size_t nodes = weights.nodes(reading.point).size();
+    coefficients_.assign(static_cast<std::size_t>(fields) * derivatives, 0.0);
+    for (std::size_t t = reading.begin; t < reading.end; ++t) {
+      coefficients_[terms[t].field * derivatives + terms[t].derivative] += terms[t].coefficient;
+    }
+    add_all_weighted_at(fields, derivatives,
+                        weights.values.data() + weights.offsets[reading.point] * derivatives,
+                        {places, nodes}, coefficients_.data(), values_.data());
+    const bool is_last = r + 1 == readings_.size() || readings_[r + 1].group != reading.group;
+    if (is_last) places += nodes;
+  }
+}
+
 std::int64_t SpreadRowMaker::count(int row) {
   read(row);
   if (known_count_ >= 0 && groups_ == known_groups_) return known_count_;
-  known_count_ = insert_columns();
-  set_.drain([](std::int64_t) {});
+  if (has_whole_nodes()) {
+    known_count_ = count_nodes() * sources_.fields;
+  } else {
+    known_count_ = insert_columns();
+    set_.drain([](std::int64_t) {});
+  }
   known_groups_ = groups_;
   has_columns_ = false;
   return known_count_;
@@ -156,15 +266,21 @@ void SpreadRowMaker::add_group(std::size_t group, std::span<const Reading> readi
 
 void SpreadRowMaker::make(int row) {
   read(row);
+  const bool is_whole = has_whole_nodes();
   if (!has_columns_ || groups_ != known_groups_) {
-    columns_.resize(insert_columns());
-    std::int64_t* next = columns_.data();
-    set_.drain([&](std::int64_t column) { *next++ = column; });
+    if (is_whole) {
+      list_nodes();
+    } else {
+      columns_.resize(insert_columns());
+      std::int64_t* next = columns_.data();
+      set_.drain([&](std::int64_t column) { *next++ = column; });
+    }
     known_groups_ = groups_;
     known_count_ = static_cast<std::int64_t>(columns_.size());
     has_columns_ = true;
   }
   const Term* const terms = sources_.equations.terms.data() + sources_.equations.places[row].first;
+  if (is_whole) return add_nodes(terms);
   for (std::size_t begin = 0; begin < readings_.size();) {
     std::size_t end = begin + 1;
     while (end < readings_.size() && readings_[end].group == readings_[begin].group) ++end;

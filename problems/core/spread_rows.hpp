@@ -50,12 +50,21 @@ class SpreadRowMaker {
   std::vector<double> coefficients_;  ///< (fields, derivatives) of one point
   std::vector<double> group_sums_;    ///< (stencil size, fields)
   std::vector<double> sums_;          ///< (unknowns) at the columns; zero before and after
+  ColumnSet nodes_;                   ///< of rows of whole nodes, as what follows
+  std::vector<int> seen_;             ///< (nodes) the stamp they were counted with
+  int stamp_ = 0;                     ///< of the last row counted
+  std::vector<int> place_;            ///< (nodes) among the row's; of others, anything
+  std::vector<int> places_;           ///< of the nodes of all groups in turn
   std::vector<std::int64_t> columns_;
   std::vector<double> values_;
 
   bool has_same_stencil(int a, int b) const;
   void read(int row);
   std::int64_t insert_columns();
+  bool has_whole_nodes() const;
+  std::int64_t count_nodes();
+  void list_nodes();
+  void add_nodes(const Term* terms);
   void add_group(std::size_t group, std::span<const Reading> readings, const Term* terms);
 };
 
