@@ -1,5 +1,6 @@
 #include "problems/core/node_graph.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 
@@ -11,6 +12,12 @@ struct Lists {
   std::vector<int> offsets{0}, ids;
 };
 
+/// Whether the row after that whose offset is given has the same columns.
+bool is_repeated(const std::int64_t* offset, const std::int64_t* columns) {
+  return std::equal(columns + offset[0], columns + offset[1], columns + offset[1],
+                    columns + offset[2]);
+}
+
 /// The other nodes in the rows of each node, once each.
 Lists couplings(const Eigen::Map<const RowMatrix>& matrix, int fields) {
   const auto nodes = static_cast<int>(matrix.rows() / fields);
@@ -21,12 +28,20 @@ Lists couplings(const Eigen::Map<const RowMatrix>& matrix, int fields) {
   std::vector<int> last(nodes, -1);
   for (int node = 0; node < nodes; ++node) {
     last[node] = node;
-    for (std::int64_t i = offsets[std::int64_t{node} * fields];
-         i < offsets[(std::int64_t{node} + 1) * fields]; ++i) {
-      const auto other = static_cast<int>(columns[i] / fields);
-      if (last[other] == node) continue;
-      last[other] = node;
-      lists.ids.push_back(other);
+    const std::int64_t first = std::int64_t{node} * fields;
+    for (std::int64_t row = first; row < first + fields; ++row) {
+      const std::span<const std::int64_t> entries(columns + offsets[row],
+                                                  columns + offsets[row + 1]);
+      if (row > first && is_repeated(offsets + row - 1, columns)) continue;
+      std::int64_t end = 0;  // of the columns of the last node
+      for (const std::int64_t column : entries) {
+        if (column < end && column >= end - fields) continue;
+        const auto other = static_cast<int>(column / fields);
+        end = (std::int64_t{other} + 1) * fields;
+        if (last[other] == node) continue;
+        last[other] = node;
+        lists.ids.push_back(other);
+      }
     }
     lists.offsets.push_back(static_cast<int>(lists.ids.size()));
   }
