@@ -5,6 +5,7 @@
 
 #include "problems/core/frontal_plan.hpp"
 #include "problems/core/simd/front_kernel.hpp"
+#include "problems/core/simd/panel_kernel.hpp"
 
 namespace strongpoint {
 namespace {
@@ -16,7 +17,10 @@ constexpr int pivots_at_once = 32;
 /// Factors beyond this are left to solvers whose factors grow less with the system.
 constexpr std::size_t most_bytes = std::size_t{4} << 30;
 
-int padded(int count) { return (count + front_tile - 1) / front_tile * front_tile; }
+template <class Real>
+int padded(int count) {
+  return (count + front_tile<Real> - 1) / front_tile<Real> * front_tile<Real>;
+}
 
 /// An entry of a column.
 struct Entry {
@@ -95,18 +99,19 @@ struct Places {
 }  // namespace
 
 /// The dense matrix of unknowns that are coupled to eliminated ones.
-class FrontalFactor::Front {
+template <class Real>
+class FrontalFactor<Real>::Front {
  public:
   Front(const Eigen::Map<const RowMatrix>& matrix, int fields, int widest, Columns columns)
       : matrix_(matrix),
         columns_(std::move(columns)),
         fields_(fields),
-        stride_(padded(widest) + 8),  // no power of two
-        entries_(static_cast<std::size_t>(stride_) * padded(widest)),
+        stride_(padded<Real>(widest) + 8),  // no power of two
+        entries_(static_cast<std::size_t>(stride_) * padded<Real>(widest)),
         place_(matrix.rows(), outside) {}
 
-  std::size_t doubles() const { return entries_.size(); }
-  double* data() { return entries_.data(); }
+  std::size_t size() const { return entries_.size(); }
+  Real* data() { return entries_.data(); }
   int stride() const { return stride_; }
 
   /// Lets nodes in and adds the rows and columns of those that are eliminated.
@@ -132,10 +137,10 @@ class FrontalFactor::Front {
   Columns columns_;
   int fields_;
   int stride_;
-  LargeArray<double> entries_;
+  LargeArray<Real> entries_;
   std::vector<int> place_;  ///< of each unknown
 
-  double* row(int place) { return entries_.data() + static_cast<std::size_t>(place) * stride_; }
+  Real* row(int place) { return entries_.data() + static_cast<std::size_t>(place) * stride_; }
   void put(int node, int place) {
     for (int f = 0; f < fields_; ++f) place_[node * fields_ + f] = place * fields_ + f;
   }
@@ -143,17 +148,17 @@ class FrontalFactor::Front {
   void clear(int old_size, int size) {
     const int from = old_size * fields_;
     const int to = size * fields_;
-    for (int r = 0; r < to; ++r) std::fill(row(r) + (r < from ? from : 0), row(r) + to, 0.0);
+    for (int r = 0; r < to; ++r) std::fill(row(r) + (r < from ? from : 0), row(r) + to, Real{0});
   }
   /// Adds what the rows of a node hold of columns that are still there.
   void add_rows(int node, int place) {
     for (int f = 0; f < fields_; ++f) {
-      double* const entries = row(place * fields_ + f);
+      Real* const entries = row(place * fields_ + f);
       const std::int64_t line = std::int64_t{node} * fields_ + f;
       for (std::int64_t i = matrix_.outerIndexPtr()[line]; i < matrix_.outerIndexPtr()[line + 1];
            ++i) {
         const int at = place_[matrix_.innerIndexPtr()[i]];
-        if (at != outside) entries[at] += matrix_.valuePtr()[i];
+        if (at != outside) entries[at] += static_cast<Real>(matrix_.valuePtr()[i]);
       }
     }
   }
@@ -162,18 +167,20 @@ class FrontalFactor::Front {
     for (int f = 0; f < fields_; ++f) {
       const int at = place * fields_ + f;
       for (const Entry& entry : columns_.of(node * fields_ + f)) {
-        row(place_[entry.row])[at] += entry.value;
+        row(place_[entry.row])[at] += static_cast<Real>(entry.value);
       }
     }
   }
 };
 
-std::size_t FrontalFactor::lower_of(const Step& step) const {
-  return upper_of(step) + static_cast<std::size_t>(pivots_of(step)) * padded(step.rest);
+template <class Real>
+std::size_t FrontalFactor<Real>::lower_of(const Step& step) const {
+  return upper_of(step) + static_cast<std::size_t>(pivots_of(step)) * padded<Real>(step.rest);
 }
 
-FrontalFactor::FrontalFactor(const Eigen::Map<const RowMatrix>& matrix, int fields,
-                             const NodeGraph& graph, std::span<const int> order)
+template <class Real>
+FrontalFactor<Real>::FrontalFactor(const Eigen::Map<const RowMatrix>& matrix, int fields,
+                                   const NodeGraph& graph, std::span<const int> order)
     : fields_(fields), swapped_(matrix.rows()) {
   const std::vector<FrontStep> plan =
       plan_fronts(graph, order, std::max(1, pivots_at_once / fields));
@@ -184,69 +191,76 @@ FrontalFactor::FrontalFactor(const Eigen::Map<const RowMatrix>& matrix, int fiel
     const int pivots = (planned.end - planned.begin) * fields;
     const int rest = size - pivots;
     const Step step{planned.begin, planned.end, rest, fronts_.size(), room};
-    room += static_cast<std::size_t>(pivots) * (pivots + 2 * padded(rest));
+    room += static_cast<std::size_t>(pivots) * (pivots + 2 * padded<Real>(rest));
     steps_.push_back(step);
     for (const int node : planned.nodes) {
       for (int f = 0; f < fields; ++f) fronts_.push_back(node * fields + f);
     }
     widest = std::max(widest, size);
-    longest_ = std::max(longest_, padded(rest));
+    longest_ = std::max(longest_, padded<Real>(rest));
   }
-  has_factors_ = room * sizeof(double) <= most_bytes;
+  has_factors_ = room * sizeof(Real) <= most_bytes;
   if (!has_factors_) return;
   factors_.resize(room);
   Front front(matrix, fields, widest, Columns(matrix, steps_of_unknowns(plan, order, fields)));
-  front_doubles_ = front.doubles();
+  front_size_ = front.size();
   Places places;
   for (std::size_t s = 0; s < plan.size() && has_factors_; ++s) {
     front.advance(plan[s]);
     places.set(plan[s], fields);
     const Step& step = steps_[s];
-    double* const block = factors_.data() + step.block;
+    Real* const block = factors_.data() + step.block;
     double least_pivot = 0;
-    eliminate_pivots({front.data(), front.stride(), step.rest, pivots_of(step),
-                      places.pivots.data(), places.from.data(), places.to.data(),
-                      static_cast<int>(places.from.size()), places.rows.data(), block,
-                      swapped_.data() + static_cast<std::ptrdiff_t>(step.begin) * fields,
-                      block + upper_of(step), block + lower_of(step), &least_pivot});
+    eliminate_pivots(
+        FrontTask<Real>{front.data(), front.stride(), step.rest, pivots_of(step),
+                        places.pivots.data(), places.from.data(), places.to.data(),
+                        static_cast<int>(places.from.size()), places.rows.data(), block,
+                        swapped_.data() + static_cast<std::ptrdiff_t>(step.begin) * fields,
+                        block + upper_of(step), block + lower_of(step), &least_pivot});
     has_factors_ = least_pivot > 0;
   }
 }
 
-void FrontalFactor::solve(const double* b, double* x) const {
+template <class Real>
+void FrontalFactor<Real>::solve(const double* b, double* x) const {
   const std::size_t n = swapped_.size();
   if (x != b) std::copy(b, b + n, x);
-  std::vector<double> pivot_values(n);  // by order of elimination
-  std::vector<double> gathered(longest_);
+  std::vector<Real> pivot_values(n);  // by order of elimination
+  std::vector<Real> gathered(longest_);
   for (const Step& step : steps_) {
     const int pivots = pivots_of(step);
-    const double* const block = factors_.data() + step.block;
+    const Real* const block = factors_.data() + step.block;
     const int* const unknowns = fronts_.data() + step.unknowns;
     const std::size_t first = static_cast<std::size_t>(step.begin) * fields_;
-    double* const values = pivot_values.data() + first;
-    for (int k = 0; k < pivots; ++k) values[k] = x[unknowns[step.rest + k]];
+    Real* const values = pivot_values.data() + first;
+    for (int k = 0; k < pivots; ++k) values[k] = static_cast<Real>(x[unknowns[step.rest + k]]);
     for (int k = 0; k < pivots; ++k) std::swap(values[k], values[swapped_[first + k]]);
     for (int k = 0; k < pivots; ++k) {
       for (int i = 0; i < k; ++i) values[k] -= block[k * pivots + i] * values[i];
     }
-    multiply_panel({block + lower_of(step), step.rest, pivots, values, gathered.data()});
+    multiply_panel(
+        PanelTask<Real>{block + lower_of(step), step.rest, pivots, values, gathered.data()});
     for (int i = 0; i < step.rest; ++i) x[unknowns[i]] -= gathered[i];
   }
   for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) {
     const int pivots = pivots_of(*step);
-    const double* const block = factors_.data() + step->block;
+    const Real* const block = factors_.data() + step->block;
     const int* const unknowns = fronts_.data() + step->unknowns;
-    double* const values = pivot_values.data() + static_cast<std::size_t>(step->begin) * fields_;
-    std::fill(gathered.begin(), gathered.end(), 0.0);
-    for (int i = 0; i < step->rest; ++i) gathered[i] = x[unknowns[i]];
-    subtract_turned_panel({block + upper_of(*step), step->rest, pivots, values, gathered.data()});
+    Real* const values = pivot_values.data() + static_cast<std::size_t>(step->begin) * fields_;
+    std::fill(gathered.begin(), gathered.end(), Real{0});
+    for (int i = 0; i < step->rest; ++i) gathered[i] = static_cast<Real>(x[unknowns[i]]);
+    subtract_turned_panel(
+        PanelTask<Real>{block + upper_of(*step), step->rest, pivots, values, gathered.data()});
     for (int k = pivots - 1; k >= 0; --k) {
-      double sum = values[k];
+      Real sum = values[k];
       for (int i = k + 1; i < pivots; ++i) sum -= block[k * pivots + i] * values[i];
       values[k] = sum / block[k * pivots + k];
       x[unknowns[step->rest + k]] = values[k];
     }
   }
 }
+
+template class FrontalFactor<double>;
+template class FrontalFactor<float>;
 
 }  // namespace strongpoint
