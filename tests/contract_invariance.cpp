@@ -1,10 +1,11 @@
-// What must not change the weights of any registered method.
+// What must not change the weights of any registered method, and means of them.
 #include <algorithm>
 #include <map>
 
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include "methods/core/spans.hpp"
 #include "tests/contract_support.hpp"
 
 namespace strongpoint {
@@ -135,6 +136,39 @@ TEST(ContractInvariance, DoNotDependOnNodesOutsideTheStencil) {
     scene.sites.nodes.col(scene.sites.node_count() - 1) *= 3;
     const Weights after = scene.method->weights(scene.sites, scene.stencils, {{1, 0}});
     EXPECT_EQ(before.values, after.values) << spec;
+  }
+}
+
+TEST(ContractInvariance, GiveTheMeanOverASpanOfTheWeightsAtItsEnds) {
+  for (const std::string& spec : method_specs(2)) {
+    TestScene<2> scene = make_scene<2>(spec, "perturbed", 12, 5);
+    Sites<2>& sites = scene.sites;
+    const Derivatives<2> derivatives{{1, 0}, {0, 1}};
+    std::vector<std::map<int, double>> expected(static_cast<std::size_t>(2 * sites.point_count()));
+    const Points<2> anchors = sites.points;
+    const Points<2> inwards = Point<2>(0.48, 0.52).replicate(1, anchors.cols()) - anchors;
+    for (const double end : {0.02, 0.06}) {
+      sites.points = anchors + end * inwards;
+      const Weights weights = scene.method->weights(sites, scene.stencils, derivatives);
+      for (std::size_t i = 0; i < expected.size(); ++i) {
+        const auto point = static_cast<int>(i / 2);
+        for (const auto& [node, weight] : weights_by_node(weights, point, i % 2)) {
+          expected[i][node] += 0.5 * weight;
+        }
+      }
+    }
+    sites.points = anchors + 0.04 * inwards;
+    sites.spans = 0.02 * inwards;
+    const Weights means = weights_on<2>(*scene.method, sites, scene.stencils, derivatives);
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      const auto found = weights_by_node(means, static_cast<int>(i / 2), i % 2);
+      double size = 0;
+      for (const auto& [node, weight] : expected[i]) size = std::max(size, std::abs(weight));
+      for (const auto& [node, weight] : expected[i]) {
+        const auto place = found.find(node);
+        EXPECT_NEAR(place == found.end() ? 0 : place->second, weight, 1e-8 * size) << spec;
+      }
+    }
   }
 }
 

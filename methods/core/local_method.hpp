@@ -103,12 +103,8 @@ class LocalMethod : public Method<Dim> {
   Kernel kernel_;
   Traits traits_;
 
-  /// Throws CaseError when something that the method needs was not prepared, std::logic_error when
-  /// there is what it does not read.
+  /// Throws CaseError when something that the method needs was not prepared.
   void check_needs(const Sites<Dim>& sites) const {
-    if (sites.spans.cols() > 0 && !reads_spans()) {
-      throw std::logic_error(traits_.name + " reads no spans of points; call weights_on");
-    }
     if (traits_.needs.volumes && sites.volumes.size() != sites.node_count()) {
       throw CaseError(traits_.name + ": cell volumes are needed but the sites hold none");
     }
@@ -178,6 +174,9 @@ requires LocalKernel<Kernel, Dim> Weights LocalMethod<Dim, Kernel>::weights(
     const Sites<Dim>& sites, const Stencils& stencils, const Derivatives<Dim>& derivatives)
 const {
   check_needs(sites);
+  if (sites.spans.cols() > 0 && !reads_spans()) {
+    throw std::logic_error(traits_.name + " reads no spans of points; call weights_on");
+  }
   Weights weights = weights_on_stencils(sites, stencils, derivatives.size());
   const Stencils points = points_by_anchor(sites);
   const std::vector<int> anchors = stencils.occupied();

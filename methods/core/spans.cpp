@@ -20,6 +20,33 @@ Sites<Dim> with_ends(const Sites<Dim>& sites) {
   return ends;
 }
 
+/// Appends a row with the nodes of two: a method may leave out nodes that weigh nothing at one end.
+void append_union(std::span<const int> a, std::span<const int> b, Weights& weights) {
+  const auto first = static_cast<std::ptrdiff_t>(weights.columns.size());
+  weights.columns.insert(weights.columns.end(), a.begin(), a.end());
+  const bool is_same = std::equal(a.begin(), a.end(), b.begin(), b.end());
+  for (std::size_t j = 0; j < b.size() && !is_same; ++j) {
+    const auto row = weights.columns.begin() + first;
+    if (std::find(row, weights.columns.end(), b[j]) == weights.columns.end()) {
+      weights.columns.push_back(b[j]);
+    }
+  }
+  weights.offsets.push_back(static_cast<std::int64_t>(weights.columns.size()));
+}
+
+/// Adds half of a row to row p of `means`, which has all of its nodes.
+void add_half(const Weights& ends, int end, int p, Weights& means) {
+  const std::span<const int> nodes = means.nodes(p);
+  Eigen::Map<Eigen::MatrixXd> sum = means.row(p);
+  for (std::size_t j = 0; j < ends.nodes(end).size(); ++j) {
+    const int node = ends.nodes(end)[j];
+    const bool is_there = nodes[j] == node;  // as in all rows of most methods
+    const auto place = is_there ? nodes.begin() + static_cast<std::ptrdiff_t>(j)
+                                : std::find(nodes.begin(), nodes.end(), node);
+    sum.col(place - nodes.begin()) += 0.5 * ends.row(end).col(static_cast<Eigen::Index>(j));
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -32,15 +59,12 @@ Weights weights_on(const Method<Dim>& method, const Sites<Dim>& sites, const Ste
   Weights means;
   means.per_entry = ends.per_entry;
   for (int p = 0; p < sites.point_count(); ++p) {
-    means.offsets.push_back(means.offsets.back() +
-                            static_cast<std::int64_t>(ends.nodes(2 * p).size()));
+    append_union(ends.nodes(2 * p), ends.nodes(2 * p + 1), means);
   }
-  means.columns.resize(means.offsets.back());
-  means.values.resize(means.offsets.back() * means.per_entry);
+  means.values.resize(means.columns.size() * means.per_entry);
+  std::fill(means.values.begin(), means.values.end(), 0.0);
   for (int p = 0; p < sites.point_count(); ++p) {
-    const std::span<const int> nodes = ends.nodes(2 * p);
-    std::copy(nodes.begin(), nodes.end(), means.columns.begin() + means.offsets[p]);
-    if (!nodes.empty()) means.row(p) = 0.5 * (ends.row(2 * p) + ends.row(2 * p + 1));
+    for (const int end : {2 * p, 2 * p + 1}) add_half(ends, end, p, means);
   }
   return means;
 }
