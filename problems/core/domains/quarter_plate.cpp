@@ -79,7 +79,10 @@ std::vector<Block<2>> QuarterPlate::blocks() const {
 
 double QuarterPlate::spacing(const Point2& x, int level) const {
   const double ratio = std::max(x.norm(), a_) / a_;
-  const double grown = growth_ == 1 ? ratio : std::pow(ratio, growth_);  // the same, sooner
+  // The usual powers, sooner.
+  const double grown = growth_ == 1     ? ratio
+                       : growth_ == 1.5 ? ratio * std::sqrt(ratio)
+                                        : std::pow(ratio, growth_);
   return std::numbers::pi / 2 / (level - 1) * a_ * grown;
 }
 
