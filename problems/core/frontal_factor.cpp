@@ -23,15 +23,17 @@ int padded(int count) {
 }
 
 /// An entry of a column.
+template <class Real>
 struct Entry {
   int row;
-  double value;
+  Real value;
 };
 
 /// The entries of each column in rows that are eliminated in a later step.
+template <class Real>
 struct Columns {
   std::vector<int> offsets;
-  LargeArray<Entry> entries;
+  LargeArray<Entry<Real>> entries;
 
   /// `steps` holds the step in which each unknown is eliminated.
   Columns(const Eigen::Map<const RowMatrix>& matrix, std::span<const int> steps)
@@ -41,10 +43,10 @@ struct Columns {
     entries.resize(offsets.back());
     std::vector<int> next(offsets.begin(), offsets.end() - 1);
     for_later_rows(matrix, steps, [&](int column, int row, double value) {
-      entries[next[column]++] = {row, value};
+      entries[next[column]++] = {row, static_cast<Real>(value)};
     });
   }
-  std::span<const Entry> of(int column) const {
+  std::span<const Entry<Real>> of(int column) const {
     return {entries.data() + offsets[column], entries.data() + offsets[column + 1]};
   }
 
@@ -102,7 +104,7 @@ struct Places {
 template <class Real>
 class FrontalFactor<Real>::Front {
  public:
-  Front(const Eigen::Map<const RowMatrix>& matrix, int fields, int widest, Columns columns)
+  Front(const Eigen::Map<const RowMatrix>& matrix, int fields, int widest, Columns<Real> columns)
       : matrix_(matrix),
         columns_(std::move(columns)),
         fields_(fields),
@@ -134,7 +136,7 @@ class FrontalFactor<Real>::Front {
   static constexpr int outside = -1;
 
   const Eigen::Map<const RowMatrix>& matrix_;
-  Columns columns_;
+  Columns<Real> columns_;
   int fields_;
   int stride_;
   LargeArray<Real> entries_;
@@ -166,8 +168,8 @@ class FrontalFactor<Real>::Front {
   void add_columns(int node, int place) {
     for (int f = 0; f < fields_; ++f) {
       const int at = place * fields_ + f;
-      for (const Entry& entry : columns_.of(node * fields_ + f)) {
-        row(place_[entry.row])[at] += static_cast<Real>(entry.value);
+      for (const Entry<Real>& entry : columns_.of(node * fields_ + f)) {
+        row(place_[entry.row])[at] += entry.value;
       }
     }
   }
@@ -202,7 +204,8 @@ FrontalFactor<Real>::FrontalFactor(const Eigen::Map<const RowMatrix>& matrix, in
   has_factors_ = room * sizeof(Real) <= most_bytes;
   if (!has_factors_) return;
   factors_.resize(room);
-  Front front(matrix, fields, widest, Columns(matrix, steps_of_unknowns(plan, order, fields)));
+  Front front(matrix, fields, widest,
+              Columns<Real>(matrix, steps_of_unknowns(plan, order, fields)));
   front_size_ = front.size();
   Places places;
   for (std::size_t s = 0; s < plan.size() && has_factors_; ++s) {
