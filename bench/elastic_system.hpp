@@ -59,6 +59,7 @@ class ElasticSystem {
                      smooth_field()};
     multiply(made.system, made.solution, made.system.right_hand_side);
     made.system.dimension = Dim;
+    made.system.places = nodes_;
     made.system.order = order_along(nodes_.row(0).transpose());
     return made;
   }

@@ -84,14 +84,14 @@ Eigen::VectorXd cell_volumes(const Discretisation<Dim>& scene, const Domain<Dim>
   return volumes;
 }
 
-/// First coordinate of each node that is an unknown.
+/// Where each node lies that is an unknown, (Dim, unknowns).
 template <int Dim>
-Eigen::VectorXd first_coordinates(const Discretisation<Dim>& scene) {
-  Eigen::VectorXd x(scene.unknowns.count);
+Eigen::MatrixXd places_of_unknowns(const Discretisation<Dim>& scene) {
+  Eigen::MatrixXd places(Dim, scene.unknowns.count);
   for (int node = scene.sites.node_count() - 1; node >= 0; --node) {  // its own place comes last
-    x[scene.unknowns.of(node)] = scene.sites.nodes(0, node);
+    places.col(scene.unknowns.of(node)) = scene.sites.nodes.col(node);
   }
-  return x;
+  return places;
 }
 
 template <int Dim>
@@ -227,7 +227,10 @@ CaseResult solve_steady(const SteadyProblem<Dim>& problem, const CaseKey& key,
   });
   system.dimension = Dim;
   if (is_iterative(key.solver)) {
-    clock.time(times.solve, [&] { system.order = order_along(first_coordinates(scene)); });
+    clock.time(times.solve, [&] {
+      system.places = places_of_unknowns(scene);
+      system.order = order_along(system.places.row(0).transpose());
+    });
   }
   if (!options.vtk) clock.time(times.solve, [&] { release_unread(problem, scene); });
   const LinearSolution linear = clock.time(times.solve, [&] { return solve(system, key.solver); });
