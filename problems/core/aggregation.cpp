@@ -93,70 +93,6 @@ void join(Aggregates& aggregates, const Couplings& couplings) {
   }
 }
 
-/// The nodes of each aggregate, in compressed rows.
-struct Members {
-  std::vector<int> offsets, nodes;
-
-  explicit Members(const Aggregates& aggregates) : offsets(aggregates.count + 1, 0) {
-    for (const int aggregate : aggregates.of_node) {
-      if (aggregate >= 0) ++offsets[aggregate + 1];
-    }
-    for (int i = 0; i < aggregates.count; ++i) offsets[i + 1] += offsets[i];
-    nodes.resize(offsets.back());
-    std::vector<int> next(offsets.begin(), offsets.end() - 1);
-    for (std::size_t node = 0; node < aggregates.of_node.size(); ++node) {
-      const int aggregate = aggregates.of_node[node];
-      if (aggregate >= 0) nodes[next[aggregate]++] = static_cast<int>(node);
-    }
-  }
-};
-
-/// Sums blocks by column for one row after the other.
-template <int Size>
-class RowSum {
- public:
-  explicit RowSum(int columns) : places_(columns, -1) {}
-
-  void add(int column, const Block<Size>& block) {
-    int& place = places_[column];
-    if (place < 0) {
-      place = static_cast<int>(columns_.size());
-      columns_.push_back(column);
-      blocks_.push_back(Block<Size>::Zero());
-    }
-    blocks_[place] += block;
-  }
-  /// Hands each block to `take(column, numbers)` in the order of columns, and forgets the row.
-  template <class Take>
-  void drain(const Take& take) {
-    std::sort(columns_.begin(), columns_.end());
-    for (const int column : columns_) {
-      take(column, blocks_[places_[column]].data());
-      places_[column] = -1;
-    }
-    columns_.clear();
-    blocks_.clear();
-  }
-
- private:
-  std::vector<int> places_, columns_;
-  std::vector<Block<Size>> blocks_;
-};
-
-/// The inverse of a row's diagonal block, or the unit block.
-template <int Size>
-Block<Size> inverse_diagonal(const BlockMatrix<Size>& matrix, int row) {
-  const auto begin = matrix.columns.begin() + matrix.offsets[row];
-  const auto end = matrix.columns.begin() + matrix.offsets[row + 1];
-  const auto place = std::lower_bound(begin, end, row);
-  if (place == end || *place != row) return Block<Size>::Identity();
-  const Block<Size> diagonal = block_at(matrix, place - matrix.columns.begin());
-  constexpr double least_share = 1e-10;  // of its size that a pivot may have
-  Block<Size> inverse;
-  const bool is_regular = invert_block<Size>(diagonal, least_share * diagonal.norm(), inverse);
-  return is_regular ? inverse : Block<Size>(Block<Size>::Identity());
-}
-
 }  // namespace
 
 template <int Size>
@@ -180,57 +116,10 @@ Aggregates aggregate(const BlockMatrix<Size>& matrix, const StrongCouplings& str
   return aggregates;
 }
 
-template <int Size>
-CoarseLevel<Size> coarsen(const BlockMatrix<Size>& matrix, const Aggregates& aggregates) {
-  CoarseLevel<Size> level;
-  level.inverses.reserve(static_cast<std::size_t>(matrix.rows()) * Size * Size);
-  RowSum<Size> sum(aggregates.count);
-  BlockMatrix<Size> product;  // A P
-  for (int row = 0; row < matrix.rows(); ++row) {
-    const Block<Size> inverse = inverse_diagonal(matrix, row);
-    level.inverses.insert(level.inverses.end(), inverse.data(), inverse.data() + Size * Size);
-    for (std::int64_t i = matrix.offsets[row]; i < matrix.offsets[row + 1]; ++i) {
-      const int aggregate = aggregates.of_node[matrix.columns[i]];
-      if (aggregate >= 0) sum.add(aggregate, block_at(matrix, i));
-    }
-    sum.drain([&](int column, const double* block) {
-      level.fine_to_coarse.append(column, block);
-      product.columns.push_back(column);
-      product.values.insert(product.values.end(), block, block + Size * Size);
-    });
-    level.fine_to_coarse.end_row();
-  }
-  level.fine_to_coarse.pad();
-  const Members members(aggregates);
-  for (int row = 0; row < aggregates.count; ++row) {
-    for (int m = members.offsets[row]; m < members.offsets[row + 1]; ++m) {
-      const int node = members.nodes[m];
-      const Block<Size> inverse =
-          Eigen::Map<const Eigen::Matrix<float, Size, Size>>(
-              level.inverses.data() + static_cast<std::ptrdiff_t>(node) * Size * Size)
-              .template cast<double>();
-      const std::vector<std::int64_t>& offsets = level.fine_to_coarse.offsets;
-      for (std::int64_t i = offsets[node]; i < offsets[node + 1]; ++i) {
-        sum.add(product.columns[i], inverse.lazyProduct(block_at(product, i)));
-      }
-    }
-    sum.drain([&](int column, const double* block) {
-      level.matrix.columns.push_back(column);
-      level.matrix.values.insert(level.matrix.values.end(), block, block + Size * Size);
-    });
-    level.matrix.offsets.push_back(static_cast<std::int64_t>(level.matrix.columns.size()));
-  }
-  level.matrix.values.resize(level.matrix.values.size() + block_padding, 0.0);
-  return level;
-}
-
-#define STRONGPOINT_INSTANTIATE(size) /* every block size that a solver takes */   \
-  template Aggregates aggregate(const BlockMatrix<size>&, const StrongCouplings&); \
-  template CoarseLevel<size> coarsen(const BlockMatrix<size>&, const Aggregates&);
-STRONGPOINT_INSTANTIATE(1)
-STRONGPOINT_INSTANTIATE(2)
-STRONGPOINT_INSTANTIATE(3)
-STRONGPOINT_INSTANTIATE(4)
-#undef STRONGPOINT_INSTANTIATE
+// Every block size that a solver takes.
+template Aggregates aggregate(const BlockMatrix<1>&, const StrongCouplings&);
+template Aggregates aggregate(const BlockMatrix<2>&, const StrongCouplings&);
+template Aggregates aggregate(const BlockMatrix<3>&, const StrongCouplings&);
+template Aggregates aggregate(const BlockMatrix<4>&, const StrongCouplings&);
 
 }  // namespace strongpoint

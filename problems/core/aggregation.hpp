@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "problems/core/block_factors.hpp"
 #include "problems/core/block_matrix.hpp"
 
 namespace strongpoint {
@@ -27,18 +26,5 @@ struct StrongCouplings {
 /// let the iteration stall.
 template <int Size>
 Aggregates aggregate(const BlockMatrix<Size>& matrix, const StrongCouplings& strong);
-
-/// The Galerkin product of plain aggregation and what a cycle needs of it. P holds one for each
-/// node in its aggregate; D is the block diagonal of A, by which the rows of collocation become
-/// alike: those of a traction have other magnitudes and signs than those of the equilibrium.
-template <int Size>
-struct CoarseLevel {
-  BlockMatrix<Size> matrix;           ///< P^T D^-1 A P
-  SingleMatrix<Size> fine_to_coarse;  ///< A P, (fine rows, aggregates), padded
-  std::vector<float> inverses;  ///< (fine rows * Size * Size) D^-1; unit blocks where D is singular
-};
-
-template <int Size>
-CoarseLevel<Size> coarsen(const BlockMatrix<Size>& matrix, const Aggregates& aggregates);
 
 }  // namespace strongpoint

@@ -3,19 +3,45 @@
 #include <optional>
 #include <vector>
 
-#include "problems/core/aggregation.hpp"
 #include "problems/core/preconditioner.hpp"
+#include "problems/core/transfer.hpp"
 #include "problems/core/triangular_factors.hpp"
 
 namespace strongpoint {
 
+/// A level of multigrid: ILU(0) and the way to the next coarser one.
+template <int Size, int Coarse>
+class AmgLevel {
+ public:
+  AmgLevel(const BlockMatrix<Size>& matrix, Transfer<Size, Coarse> transfer,
+           SingleMatrix<Size, Coarse> fine_to_coarse);
+
+  /// What is left of r on the coarser level.
+  Eigen::VectorXf& restrict_to_coarse(const Eigen::VectorXf& r) const;
+  /// Where its correction goes.
+  Eigen::VectorXf& correction() const { return coarse_z_; }
+  /// z = the correction and a sweep of ILU(0) on what it left of r.
+  void smooth(const Eigen::VectorXf& r, Eigen::VectorXf& z) const;
+
+  int shifted_pivots() const { return smoother_.shifted; }
+  std::size_t bytes() const;
+
+ private:
+  BlockFactors<Size> smoother_;
+  Transfer<Size, Coarse> transfer_;
+  SingleMatrix<Size, Coarse> fine_to_coarse_;
+  mutable Eigen::VectorXf residual_, coarse_r_, coarse_z_;
+};
+
 /// Algebraic multigrid by plain aggregation of nodes: a coarse correction, enlarged by a constant,
 /// then one sweep of ILU(0); two cycles on every coarse level (W-cycle), direct factors on the
-/// last. Translations alone are interpolated. Two steps of a minimal residual instead (the K-cycle
-/// of Notay 2010) take as many iterations on fixed squares and cubes and stall where rows are those
-/// of tractions on ghosts. Source: Stüben 2001, sections 4 and 9.1 (aggregation, enlarged
-/// correction).
-template <int Size>
+/// last. Aggregates of a plane elastic system whose places are known move as rigid bodies (Coarse
+/// is 3), others are translated only. Two steps of a minimal residual instead of the W-cycle (the
+/// K-cycle of Notay 2010) take as many iterations on fixed squares and cubes and stall where rows
+/// are those of tractions on ghosts. Source: Stüben 2001, sections 4 and 9.1 (aggregation, enlarged
+/// correction). Deviation: rows are summed as forces and moments, see `balance_weights`, or,
+/// without places, after a product with the inverses of the diagonal blocks.
+template <int Size, int Coarse = Size>
 class BlockAmg : public Preconditioner {
  public:
   struct Parameters {
@@ -23,8 +49,14 @@ class BlockAmg : public Preconditioner {
     double enlarge = 1.5;       ///< what a correction by constants is multiplied by; measured
     int coarsest_nodes = 1500;  ///< at most, on the level that is solved directly
   };
-  /// Throws CaseError as `block_ilu0` does and when the coarsest matrix is singular.
-  BlockAmg(const BlockMatrix<Size>& matrix, const Parameters& parameters);
+  /// How the unknowns move.
+  struct Plane {
+    PlaneBodies bodies;
+    Eigen::VectorXd weights;  ///< of the rows
+  };
+  /// `plane` is read with rigid bodies, that is when Coarse is not Size. Throws CaseError as
+  /// `block_ilu0` does and when the coarsest matrix is singular.
+  BlockAmg(const BlockMatrix<Size>& matrix, const Parameters& parameters, Plane plane = {});
 
   using Preconditioner::apply;
   void apply(const Eigen::VectorXf& r, Eigen::VectorXf& z) const override;
@@ -32,26 +64,23 @@ class BlockAmg : public Preconditioner {
   std::size_t bytes() const override;
 
  private:
-  /// A level and the way to the next coarser one.
-  struct Level {
-    SingleMatrix<Size> matrix;  ///< empty on the finest, which needs none
-    BlockFactors<Size> smoother;
-    std::vector<int> aggregates;  ///< (rows) of each, or -1
-    SingleMatrix<Size> fine_to_coarse;
-    std::vector<float> inverses;  ///< (rows * Size * Size) of the diagonal blocks
-    int coarse_rows = 0;
-    mutable Eigen::VectorXf residual, coarse_r, coarse_z, first, left;
+  /// One of the coarser levels, with its matrix.
+  struct Lower {
+    SingleMatrix<Coarse> matrix;
+    AmgLevel<Coarse, Coarse> level;
+    mutable Eigen::VectorXf first, left;
   };
   Parameters parameters_;
-  std::vector<Level> levels_;
+  std::optional<AmgLevel<Size, Coarse>> finest_;
+  std::vector<Lower> lower_;
   std::optional<TriangularFactors> factors_;
   mutable Eigen::VectorXd direct_r_, direct_z_;
 
-  BlockMatrix<Size> add_level(const BlockMatrix<Size>& matrix, const Aggregates& aggregates);
-  void factorise(const BlockMatrix<Size>& matrix);
-  void restrict_to_coarse(const Level& level, const Eigen::VectorXf& r) const;
-  void cycle(std::size_t level, const Eigen::VectorXf& r, Eigen::VectorXf& z) const;
-  void solve_coarse(std::size_t level, const Eigen::VectorXf& r, Eigen::VectorXf& z) const;
+  void factorise(const BlockMatrix<Coarse>& matrix);
+  template <class Level>
+  void cycle(const Level& level, std::size_t next, const Eigen::VectorXf& r,
+             Eigen::VectorXf& z) const;
+  void solve_coarse(std::size_t index, const Eigen::VectorXf& r, Eigen::VectorXf& z) const;
 };
 
 }  // namespace strongpoint

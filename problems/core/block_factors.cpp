@@ -99,17 +99,17 @@ bool invert_block(Eigen::Matrix<double, Size, Size> block, double least,
   return true;
 }
 
-template <int Size>
-void SingleMatrix<Size>::reserve(int row_count, std::int64_t blocks) {
+template <int Size, int Columns>
+void SingleMatrix<Size, Columns>::reserve(int row_count, std::int64_t blocks) {
   offsets.reserve(row_count + 1);
   columns.reserve(blocks);
-  values.reserve(blocks * Size * Size + block_padding);
+  values.reserve(blocks * Size * Columns + block_padding);
 }
 
-template <int Size>
-void SingleMatrix<Size>::append(int column, const double* block) {
+template <int Size, int Columns>
+void SingleMatrix<Size, Columns>::append(int column, const double* block) {
   columns.push_back(column);
-  for (int i = 0; i < Size * Size; ++i) values.push_back(static_cast<float>(block[i]));
+  for (int i = 0; i < Size * Columns; ++i) values.push_back(static_cast<float>(block[i]));
 }
 
 template <int Size>
@@ -180,5 +180,6 @@ STRONGPOINT_INSTANTIATE(2)
 STRONGPOINT_INSTANTIATE(3)
 STRONGPOINT_INSTANTIATE(4)
 #undef STRONGPOINT_INSTANTIATE
+template struct SingleMatrix<2, 3>;
 
 }  // namespace strongpoint

@@ -16,12 +16,13 @@ template <int Size>
 bool invert_block(Eigen::Matrix<double, Size, Size> block, double least,
                   Eigen::Matrix<double, Size, Size>& inverse);
 
-/// A sparse matrix of dense blocks in compressed rows, in single precision and stored by columns.
-template <int Size>
+/// A sparse matrix of dense blocks (Size, Columns) in compressed rows, in single precision and
+/// stored by columns.
+template <int Size, int Columns = Size>
 struct SingleMatrix {
   std::vector<std::int64_t> offsets{0};  ///< (rows + 1)
   std::vector<int> columns;              ///< (blocks)
-  std::vector<float> values;             ///< (blocks * Size * Size), padded once `pad` was called
+  std::vector<float> values;  ///< (blocks * Size * Columns), padded once `pad` was called
 
   int rows() const { return static_cast<int>(offsets.size()) - 1; }
   /// Makes room for `row_count` rows of `blocks` in all.

@@ -22,12 +22,13 @@ Two load(const double* from) { return copied<Two>(from); }
 Two spread(double x) { return Two{x, x}; }
 
 /// The sum of blocks times parts of x for one block row; two sums by turns hide the latency.
-template <int Size>
+template <int Size, int Columns = Size>
 class Sum {
  public:
   void add(const float* block, const float* x, int turn) {
     if constexpr (Size == 2) {
       lanes_[turn] += load(block) * Four{x[0], x[0], x[1], x[1]};
+      if constexpr (Columns == 3) lanes_[turn] += load(block + 4) * Four{x[2], x[2], 0, 0};
     } else {
       for (int j = 0; j < Size; ++j) lanes_[turn] += load(block + j * Size) * spread(x[j]);
     }
@@ -42,7 +43,7 @@ class Sum {
 };
 
 template <>
-class Sum<1> {
+class Sum<1, 1> {
  public:
   void add(const float* block, const float* x, int turn) { sums_[turn] += block[0] * x[0]; }
   float operator[](int) const { return sums_[0] + sums_[1]; }
@@ -80,12 +81,12 @@ class DoubleSum<1> {
 };
 
 /// The product of the blocks [begin, end) of one row with x.
-template <int Size, class RowSum, class Real>
+template <int Size, int Columns, class RowSum, class Real>
 RowSum blocks_times(std::int64_t begin, std::int64_t end, const int* columns, const Real* values,
                     const Real* x) {
   RowSum sum;
   const auto add = [&](std::int64_t i, int turn) {
-    sum.add(values + i * Size * Size, x + static_cast<std::int64_t>(columns[i]) * Size, turn);
+    sum.add(values + i * Size * Columns, x + static_cast<std::int64_t>(columns[i]) * Columns, turn);
   };
   std::int64_t i = begin;
   for (; i + 1 < end; i += 2) {
@@ -96,9 +97,10 @@ RowSum blocks_times(std::int64_t begin, std::int64_t end, const int* columns, co
   return sum;
 }
 
-template <int Size>
-Sum<Size> row_times(const SingleBlocks& a, int row, const float* x) {
-  return blocks_times<Size, Sum<Size>>(a.offsets[row], a.offsets[row + 1], a.columns, a.values, x);
+template <int Size, int Columns = Size>
+Sum<Size, Columns> row_times(const SingleBlocks& a, int row, const float* x) {
+  return blocks_times<Size, Columns, Sum<Size, Columns>>(a.offsets[row], a.offsets[row + 1],
+                                                         a.columns, a.values, x);
 }
 
 }  // namespace
@@ -125,10 +127,10 @@ void solve_upper(const SingleBlocks& upper, const float* inverses, int rows, flo
   }
 }
 
-template <int Size>
+template <int Size, int Columns>
 void subtract_product(const SingleBlocks& a, int rows, const float* x, float* r) {
   for (int row = 0; row < rows; ++row) {
-    const Sum<Size> sum = row_times<Size>(a, row, x);
+    const Sum<Size, Columns> sum = row_times<Size, Columns>(a, row, x);
     const std::int64_t first = static_cast<std::int64_t>(row) * Size;
     for (int i = 0; i < Size; ++i) r[first + i] -= sum[i];
   }
@@ -138,8 +140,8 @@ template <int Size>
 void multiply_rows(const std::int64_t* offsets, const int* columns, const double* values, int begin,
                    int end, const double* x, double* y) {
   for (int row = begin; row < end; ++row) {
-    const auto sum =
-        blocks_times<Size, DoubleSum<Size>>(offsets[row], offsets[row + 1], columns, values, x);
+    const auto sum = blocks_times<Size, Size, DoubleSum<Size>>(offsets[row], offsets[row + 1],
+                                                               columns, values, x);
     for (int i = 0; i < Size; ++i) y[static_cast<std::int64_t>(row) * Size + i] = sum[i];
   }
 }
@@ -155,5 +157,6 @@ STRONGPOINT_INSTANTIATE(2)
 STRONGPOINT_INSTANTIATE(3)
 STRONGPOINT_INSTANTIATE(4)
 #undef STRONGPOINT_INSTANTIATE
+template void subtract_product<2, 3>(const SingleBlocks&, int, const float*, float*);
 
 }  // namespace strongpoint

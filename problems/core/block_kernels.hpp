@@ -4,16 +4,16 @@
 
 namespace strongpoint {
 
-/// A sparse matrix of dense blocks (Size, Size) in single precision, in compressed rows, each block
-/// stored by columns. A view.
+/// A sparse matrix of dense blocks (Size, Columns), square ones unless said otherwise, in single
+/// precision, in compressed rows, each block stored by columns. A view.
 struct SingleBlocks {
   const std::int64_t* offsets;  ///< (rows + 1)
   const int* columns;           ///< (blocks)
-  const float* values;          ///< (blocks * Size * Size + block_padding)
+  const float* values;          ///< (blocks * Size * Columns + block_padding)
 };
 
 /// Numbers that the kernels may read past the last block.
-inline constexpr int block_padding = 1;
+inline constexpr int block_padding = 2;
 
 /// z = L^-1 r of `rows` block rows, L the strict lower triangle and a unit diagonal; r may be z.
 template <int Size>
@@ -24,8 +24,8 @@ void solve_unit_lower(const SingleBlocks& lower, int rows, const float* r, float
 template <int Size>
 void solve_upper(const SingleBlocks& upper, const float* inverses, int rows, float* z);
 
-/// r -= A x of `rows` block rows.
-template <int Size>
+/// r -= A x of `rows` block rows; blocks may be (2, 3).
+template <int Size, int Columns = Size>
 void subtract_product(const SingleBlocks& a, int rows, const float* x, float* r);
 
 /// y = A x of block rows [begin, end) in double precision; `values` as in `SingleBlocks`.

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "methods/core/error.hpp"
+#include "problems/core/balance.hpp"
 #include "problems/core/block_amg.hpp"
 #include "problems/core/block_ilut.hpp"
 #include "problems/core/block_matrix.hpp"
@@ -32,14 +33,39 @@ class BlockIlu0 : public Preconditioner {
   BlockFactors<Size> factors_;
 };
 
+/// Multigrid, with rigid bodies where the fields are displacements in a plane of known places.
+template <int Size>
+std::unique_ptr<Preconditioner> make_multigrid(const BlockMatrix<Size>& matrix,
+                                               const LinearSystem& system,
+                                               const std::vector<int>& order) {
+  if constexpr (Size == 2) {
+    const auto nodes = static_cast<Eigen::Index>(order.size());
+    if (system.places.rows() == 2 && system.places.cols() == nodes) {
+      const Eigen::VectorXd weights = balance_weights(system);
+      typename BlockAmg<2, 3>::Plane plane{
+          {Eigen::Matrix2Xd(2, nodes), Eigen::VectorXd::Zero(nodes)}, Eigen::VectorXd(2 * nodes)};
+      for (Eigen::Index i = 0; i < nodes; ++i) {
+        plane.bodies.places.col(i) = system.places.col(order[i]);
+        plane.weights.segment<2>(2 * i) =
+            weights.segment<2>(2 * static_cast<Eigen::Index>(order[i]));
+      }
+      return std::make_unique<BlockAmg<2, 3>>(matrix, typename BlockAmg<2, 3>::Parameters{},
+                                              std::move(plane));
+    }
+  }
+  return std::make_unique<BlockAmg<Size>>(matrix, typename BlockAmg<Size>::Parameters{});
+}
+
 template <int Size>
 std::unique_ptr<Preconditioner> make_preconditioner(const BlockMatrix<Size>& matrix,
+                                                    const LinearSystem& system,
+                                                    const std::vector<int>& order,
                                                     const IterativeSettings& settings) {
   switch (settings.preconditioning) {
     case Preconditioning::ilu0:
       return std::make_unique<BlockIlu0<Size>>(matrix);
     case Preconditioning::amg:
-      return std::make_unique<BlockAmg<Size>>(matrix, typename BlockAmg<Size>::Parameters{});
+      return make_multigrid(matrix, system, order);
     case Preconditioning::ilut:
       break;
   }
@@ -94,7 +120,8 @@ LinearSolution solve_blocks(const LinearSystem& system, const std::string& solve
                             const IterativeSettings& settings, const Iteration& iteration) {
   const std::vector<int> order = elimination_order(system, solver);
   const BlockMatrix<Size> matrix = block_matrix<Size>(system, order);
-  const std::unique_ptr<Preconditioner> preconditioner = make_preconditioner(matrix, settings);
+  const std::unique_ptr<Preconditioner> preconditioner =
+      make_preconditioner(matrix, system, order, settings);
   Eigen::VectorXd right_hand_side(system.rows());
   for (std::size_t i = 0; i < order.size(); ++i) {
     right_hand_side.segment<Size>(static_cast<Eigen::Index>(i) * Size) =

@@ -1,0 +1,132 @@
+// Rigid aggregates of multigrid, and the weights that make forces of rows.
+#include "problems/core/transfer.hpp"
+
+#include <array>
+
+#include <gtest/gtest.h>
+
+#include "problems/core/balance.hpp"
+
+namespace strongpoint {
+namespace {
+
+constexpr double round_off = 1e-12;
+constexpr double single_precision = 1e-6;
+
+/// A row of two fields' system by its coefficients of one field at nodes.
+void add_row(LinearSystem& system, int field, const std::vector<int>& nodes,
+             const std::vector<double>& numbers, double scale) {
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    system.columns.push_back(2 * nodes[i] + field);
+    system.values.push_back(numbers[i] * scale);
+  }
+  system.offsets.push_back(static_cast<std::int64_t>(system.columns.size()));
+  system.row_scales.push_back(scale);
+}
+
+/// Two Laplace equations on a square of 4^2 nodes: values on the left, outward normal derivatives
+/// on the other sides by three nodes; rows scaled at random.
+LinearSystem laplace_pair(double h) {
+  constexpr int n = 4;
+  LinearSystem system;
+  system.places.resize(2, n * n);
+  for (int node = 0; node < n * n; ++node) {
+    const int i = node / n;
+    const int j = node % n;
+    system.places.col(node) = h * Eigen::Vector2d(i, j);
+    for (int field = 0; field < 2; ++field) {
+      const double scale = 0.3 + 0.1 * (node % 3) + 0.2 * field;
+      if (i == 0) {
+        add_row(system, field, {node}, {1}, scale);
+      } else if (i == n - 1) {
+        add_row(system, field, {node - 2 * n, node - n, node}, {0.5 / h, -2 / h, 1.5 / h}, scale);
+      } else if (j == 0) {
+        add_row(system, field, {node, node + 1, node + 2}, {1.5 / h, -2 / h, 0.5 / h}, scale);
+      } else if (j == n - 1) {
+        add_row(system, field, {node - 2, node - 1, node}, {0.5 / h, -2 / h, 1.5 / h}, scale);
+      } else {
+        const double a = 1 / (h * h);
+        add_row(system, field, {node - n, node - 1, node, node + 1, node + n}, {a, a, -4 * a, a, a},
+                scale);
+      }
+    }
+  }
+  system.fields = 2;
+  system.dimension = 2;
+  return system;
+}
+
+TEST(BalanceWeights, AreAreasInsideAndLengthsOfTheOtherSignOnSides) {
+  const double h = 0.1;
+  const LinearSystem system = laplace_pair(h);
+  const Eigen::VectorXd weights = balance_weights(system);
+  // Side rows know nodes at h and 2 h only, the mean of which is h sqrt 2.
+  const double inside = h * h;
+  const double side = -h * std::sqrt(2.0);
+  for (int node : {5, 6, 9, 10}) {
+    for (int row : {2 * node, 2 * node + 1}) {
+      EXPECT_NEAR(weights[row] * system.row_scales[row], inside, round_off) << row;
+    }
+  }
+  for (int row : {2 * 4, 2 * 8 + 1, 2 * 13, 2 * 14 + 1, 2 * 11}) {
+    EXPECT_NEAR(weights[row] * system.row_scales[row], side, round_off) << row;
+  }
+  // Diagonals: -4 of four nodes inside, -1.5 sqrt 2 of eight on sides; those of values are as
+  // large.
+  const double mean = (4 * -4 + 8 * 1.5 * -std::sqrt(2.0)) / 12;
+  for (int row : {0, 1, 4}) EXPECT_NEAR(weights[row] * system.row_scales[row], mean, round_off);
+}
+
+TEST(RigidTransfer, FollowsEveryRigidMotionOverTwoLevelsAndSumsForcesAndMoments) {
+  const int nodes = 12;
+  PlaneBodies bodies{Eigen::Matrix2Xd(2, nodes), Eigen::VectorXd::Zero(nodes)};
+  for (int i = 0; i < nodes; ++i) bodies.places.col(i) << 0.3 * (i % 4), 0.2 * (i / 4) + 0.01 * i;
+  const PlaneBodies fine = bodies;
+  const Aggregates first{{0, 0, 1, 1, 0, 0, 1, 1, 2, 2, 3, 3}, 4};
+  const Eigen::VectorXd weights = Eigen::VectorXd::LinSpaced(2 * nodes, 1, 2);
+  const Transfer<2, 3> down = rigid_transfer(first, bodies, weights);
+  const PlaneBodies middle = bodies;
+  const Transfer<3, 3> further = rigid_transfer({{0, 0, 1, 1}, 2}, bodies);
+  const auto motion = [](const Eigen::Vector2d& place) -> Eigen::Vector2d {
+    return {1 - 0.7 * place[1], -2 + 0.7 * place[0]};
+  };
+  const auto body_motion = [&](const PlaneBodies& of, int i) {
+    Eigen::Vector3f result;
+    result << motion(of.places.col(i)).cast<float>(), static_cast<float>(0.7 * of.radii[i]);
+    return result;
+  };
+  for (int i = 0; i < nodes; ++i) {
+    const Eigen::Map<const Eigen::Matrix<float, 2, 3>> block(down.down.data() + 6 * i);
+    const Eigen::Vector2f moved = block * body_motion(middle, first.of_node[i]);
+    EXPECT_LT((moved.cast<double>() - motion(fine.places.col(i))).norm(), single_precision) << i;
+    const Eigen::Map<const Eigen::Matrix<float, 3, 2>> up(down.up.data() + 6 * i);
+    const Eigen::Vector2f weight = weights.segment<2>(2 * i).cast<float>();
+    EXPECT_LT((up - block.transpose() * weight.asDiagonal()).norm(), single_precision) << i;
+  }
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::Map<const Eigen::Matrix3f> block(further.down.data() + 9 * i);
+    EXPECT_LT((block * body_motion(bodies, i / 2) - body_motion(middle, i)).norm(),
+              single_precision);
+  }
+}
+
+/// The turn of a lone node is no unknown; a 1 on the diagonal keeps the coarse matrix regular.
+TEST(RigidTransfer, LeavesTheTurnOfALoneNodeToItself) {
+  const LinearSystem system = laplace_pair(0.1);
+  std::vector<int> order(16);
+  for (int i = 0; i < 16; ++i) order[i] = i;
+  PlaneBodies bodies{system.places, Eigen::VectorXd::Zero(16)};
+  Aggregates aggregates{std::vector<int>(16, 0), 2};
+  aggregates.of_node[10] = 1;
+  const BlockMatrix<2> matrix = block_matrix<2>(system, order);
+  const CoarseLevel<2, 3> coarse =
+      coarsen(matrix, rigid_transfer(aggregates, bodies, balance_weights(system)));
+  ASSERT_EQ(coarse.matrix.columns, (std::vector<int>{0, 1, 0, 1}));
+  const Eigen::Map<const Eigen::Matrix3d> last(coarse.matrix.values.data() + 27);
+  EXPECT_EQ(last(2, 2), 1);
+  EXPECT_EQ(last.row(2).head(2).norm() + last.col(2).head(2).norm(), 0);
+  EXPECT_EQ(bodies.radii[1], 0);
+}
+
+}  // namespace
+}  // namespace strongpoint
