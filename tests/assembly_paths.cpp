@@ -85,6 +85,56 @@ TEST(AssemblyPaths, MakeRowsOfTwoDerivativesAtAnyNumberOfNodes) {
   }
 }
 
+/// Equilibrium reads three of the five derivatives.
+TEST(AssemblyPaths, MakeRowsOfTwoFieldsAtAnyNumberOfNodes) {
+  constexpr int nodes = 50;
+  const NodeUnknowns unknowns{.count = nodes};
+  const EquationList equations = plain_equations(nodes, 2, second_order);
+  for (int per_row = 1; per_row <= 19; ++per_row) {
+    const Weights weights = random_weights(nodes, per_row, second_order.size());
+    on_every_path([&] {
+      LinearSystem system = assemble(equations, weights, unknowns, 2);
+      EXPECT_EQ(rows_that_differ(system, {equations, weights, unknowns, 2}), 0) << per_row;
+      const LargeArray<double> values = system.values;
+      reassemble(equations, weights, unknowns, system);
+      EXPECT_EQ(system.values, values) << per_row;
+    });
+  }
+}
+
+/// Of one field, where first derivatives are there and not read.
+TEST(AssemblyPaths, LeaveOutDerivativesThatNoRowReads) {
+  constexpr int nodes = 50;
+  const NodeUnknowns unknowns{.count = nodes};
+  const EquationList equations = plain_equations(nodes, 1, second_order);
+  for (const int per_row : {1, 7, 16, 30}) {
+    Weights weights = random_weights(nodes, per_row, second_order.size());
+    weights.values[0] = std::numeric_limits<double>::quiet_NaN();  // of the first derivative
+    on_every_path([&] {
+      const LinearSystem system = assemble(equations, weights, unknowns, 1);
+      EXPECT_EQ(rows_that_differ(system, {equations, weights, unknowns, 1}), 0) << per_row;
+    });
+  }
+}
+
+/// In whichever lane of a register it is.
+TEST(AssemblyPaths, RefuseWeightsOfTwoFieldsThatAreNotFinite) {
+  const Derivatives<2> second = Derivatives<2>::between_orders(2, 2);
+  constexpr int nodes = 40;
+  constexpr int per_row = 15;
+  const EquationList equations = plain_equations(nodes, 2, second);
+  for (int place = 0; place < second.size() * per_row; ++place) {
+    for (const double bad :
+         {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+      Weights weights = random_weights(nodes, per_row, second.size());
+      weights.values[weights.offsets[17] * second.size() + place] = bad;
+      on_every_path([&] {
+        EXPECT_THROW(assemble(equations, weights, {.count = nodes}, 2), CaseError) << place;
+      });
+    }
+  }
+}
+
 /// In whichever lane of a register it is.
 TEST(AssemblyPaths, RefuseWeightsThatAreNotFinite) {
   const Derivatives<2> laplacian({{2, 0}, {0, 2}});

@@ -1,19 +1,10 @@
 #pragma once
 
-// For kernel sources only (methods/core/simd/path.hpp): rows of one field at so few nodes that they
-// are sorted within one register.
+// For kernel sources only (methods/core/simd/path.hpp): rows of one field at few nodes.
 
-#include "methods/core/simd/pack.hpp"
+#include "problems/core/simd/few_order.hpp"
 
 namespace strongpoint::STRONGPOINT_SIMD_PATH {
-
-/// Nodes that one register sorts, and numbers that `FewNodes` writes; 0 where there is no such
-/// register.
-#if defined(__AVX512F__)
-inline constexpr int few_nodes = 16;
-#else
-inline constexpr int few_nodes = 0;
-#endif
 
 /// Largest finite number.
 inline constexpr double most = __DBL_MAX__;
@@ -32,17 +23,11 @@ class alignas(64) FewNodes {
  public:
   /// Takes 1 to `few_nodes` ids; false when one is too large for this.
   bool sort(const int* ids, int count) {
-    fetch_ahead(ids);
-    const auto some = static_cast<__mmask16>(0xFFFFU >> (few_nodes - count));
-    const __m512i nodes = _mm512_maskz_loadu_epi32(some, ids);
-    // Node and place in one number, the largest one where there is no node.
-    const __m512i places = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-    const __m512i keys = _mm512_or_si512(_mm512_slli_epi32(nodes, place_bits), places);
-    const __m512i sorted = sorted_keys(_mm512_mask_mov_epi32(_mm512_set1_epi32(-1), some, keys));
-    low_ = _mm512_cvtepu32_epi64(_mm512_castsi512_si256(sorted));
-    high_ = _mm512_cvtepu32_epi64(_mm512_extracti64x4_epi64(sorted, 1));
-    const __m512i too_large = _mm512_set1_epi32(static_cast<int>(0xF0000000U));
-    return _mm512_test_epi32_mask(nodes, too_large) == 0;
+    FewOrder order;
+    const bool is_sorted = order.sort(ids, count);
+    low_ = _mm512_cvtepu32_epi64(_mm512_castsi512_si256(order.keys()));
+    high_ = _mm512_cvtepu32_epi64(_mm512_extracti64x4_epi64(order.keys(), 1));
+    return is_sorted;
   }
 
   /// Adds up the entries, a pair of numbers each; the coefficients fill a pack.
@@ -82,7 +67,7 @@ class alignas(64) FewNodes {
   }
 
  private:
-  static constexpr int place_bits = 4;
+  static constexpr int place_bits = FewOrder::place_bits;
 
   __m512i low_, high_;  ///< node and place, ascending
   Pack sums_[2];        ///< in the order of the stencil, 0 behind it
@@ -92,27 +77,6 @@ class alignas(64) FewNodes {
     fetch_ahead(from);
     if ((bits & every_lane) == every_lane) return load(from);
     return _mm512_maskz_loadu_pd(static_cast<__mmask8>(bits), from);
-  }
-  /// The larger of two goes to the lanes whose bits are set.
-  static __m512i ordered(__m512i a, __m512i partner, __mmask16 upper) {
-    return _mm512_mask_max_epu32(_mm512_min_epu32(a, partner), upper, a, partner);
-  }
-  static __m512i by_one(__m512i a) {
-    return ordered(a, _mm512_shuffle_epi32(a, _MM_PERM_CDAB), 0xAAAA);
-  }
-  static __m512i by_two(__m512i a) {
-    return ordered(a, _mm512_shuffle_epi32(a, _MM_PERM_BADC), 0xCCCC);
-  }
-  static __m512i by_four(__m512i a) { return ordered(a, _mm512_shuffle_i64x2(a, a, 0xB1), 0xF0F0); }
-  /// No branch depends on data. Source: Knuth 1998, The Art of Computer Programming 3, section
-  /// 5.3.4, bitonic sorting, with the smaller one always at the lower place.
-  static __m512i sorted_keys(__m512i a) {
-    const __m512i eights = _mm512_setr_epi32(7, 6, 5, 4, 3, 2, 1, 0, 15, 14, 13, 12, 11, 10, 9, 8);
-    const __m512i sixteen = _mm512_setr_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0);
-    a = by_one(a);
-    a = by_one(ordered(a, _mm512_shuffle_epi32(a, _MM_PERM_ABCD), 0xCCCC));
-    a = by_one(by_two(ordered(a, _mm512_permutexvar_epi32(eights, a), 0xF0F0)));
-    return by_one(by_two(by_four(ordered(a, _mm512_permutexvar_epi32(sixteen, a), 0xFF00))));
   }
 #else
 

@@ -2,6 +2,7 @@
 
 #include "methods/core/simd/lane_scatter.hpp"
 #include "problems/core/simd/few_nodes.hpp"
+#include "problems/core/simd/few_vectors.hpp"
 #include "problems/core/simd/node_ranks.hpp"
 
 namespace strongpoint::STRONGPOINT_SIMD_PATH {
@@ -13,8 +14,8 @@ constexpr int padded(int count, int unit) { return (count + unit - 1) / unit * u
 struct Made {
   static constexpr int room = 1024;
 
-  alignas(64) double values[room + few_nodes];  // some are written in packs
-  alignas(64) std::int64_t columns[room + few_nodes];
+  alignas(64) double values[room + 2 * few_nodes];  // some are written in packs
+  alignas(64) std::int64_t columns[room + 2 * few_nodes];
   std::int64_t begin = 0;  ///< where they go
   int count = 0;
 
@@ -40,28 +41,31 @@ struct Buffers {
   static constexpr int width = padded(entries, lanes);
 
   alignas(64) int rank[most_kernel_nodes];
-  alignas(64) double coefficients[most_kernel_derivatives][width];
+  alignas(64) double coefficients[most_kernel_derivatives][width];  ///< again and again in a row
   alignas(64) std::int64_t columns[most_kernel_nodes * Fields];
   alignas(64) double sums[most_kernel_nodes][width];
   Made made;
   double entries_of_one[most_kernel_nodes];  ///< of one field
   double scales[Fields];
+  int used[most_kernel_derivatives];  ///< derivatives that have coefficients, one at least
+  int used_count;
 };
 
 /// Sums of all rows at the nodes, put where the nodes belong: a node's derivatives times the
 /// coefficients. Weights are read as they lie in memory.
 template <int Fields>
 void add_up(const RowsTask& task, std::int64_t first, int count, Buffers<Fields>& work) {
-  using Work = Buffers<Fields>;
-  const int m = task.derivatives;
+  constexpr int packs = Buffers<Fields>::width / lanes;
   for (int j = 0; j < count; ++j) {
-    const double* w = task.weights + (first + j) * m;
-    const int place = work.rank[j];
-    for (int e = 0; e < Work::width; e += lanes) {
-      Pack sum = all(w[0]) * load(&work.coefficients[0][e]);
-      for (int d = 1; d < m; ++d) sum = sum + all(w[d]) * load(&work.coefficients[d][e]);
-      store(&work.sums[place][e], sum);
+    const double* w = task.weights + (first + j) * task.derivatives;
+    Pack sums[packs] = {};
+    for (int u = 0; u < work.used_count; ++u) {
+      const Pack weight = all(w[work.used[u]]);
+      for (int e = 0; e < packs; ++e) {
+        sums[e] = sums[e] + weight * load(work.coefficients[u] + e * lanes);
+      }
     }
+    for (int e = 0; e < packs; ++e) store(work.sums[work.rank[j]] + e * lanes, sums[e]);
   }
 }
 
@@ -94,17 +98,14 @@ void find_scales(int count, Buffers<Fields>& work) {
   }
 }
 
-bool are_same(const std::int64_t* a, const std::int64_t* b, int count) {
-  std::int64_t difference = 0;
-  for (int i = 0; i < count; ++i) difference |= a[i] ^ b[i];
-  return difference == 0;
-}
-
 /// Makes the rows of a point, behind those that wait, and their scales times `row_weights`.
 template <int Fields>
 struct PointRows {
   static void make(const RowsTask& task, std::int64_t first, int count, const double* row_weights,
                    Buffers<Fields>& work) {
+    if constexpr (Fields == FewVectors::fields) {
+      if (count <= few_nodes && make_few(task, first, count, row_weights, work)) return;
+    }
     rank_nodes(task.nodes + first, count, work.rank);
     add_up<Fields>(task, first, count, work);
     find_scales<Fields>(count, work);
@@ -121,6 +122,21 @@ struct PointRows {
   }
 
  private:
+  static bool make_few(const RowsTask& task, std::int64_t first, int count,
+                       const double* row_weights, Buffers<Fields>& work) {
+    FewVectors few;
+    if (!few.sort(task.nodes + first, count)) return false;
+    few.add_up(task.weights + first * task.derivatives, task.derivatives, work.used,
+               work.used_count, work.coefficients);
+    double largest[Fields];
+    double totals[Fields];
+    few.measure(largest, totals);
+    for (int row = 0; row < Fields; ++row) {
+      work.scales[row] = scale_of(largest[row], totals[row]) * row_weights[row];
+    }
+    few.put(work.scales, work.made.values + work.made.count, work.made.columns + work.made.count);
+    return true;
+  }
   static void put(int count, int row, Buffers<Fields>& work) {
     const int length = count * Fields;
     double* const values = work.made.values + work.made.count + row * length;
@@ -143,7 +159,7 @@ struct PointRows<1> {
     const int* const nodes = task.nodes + first;
     double* const values = work.made.values + work.made.count;
     std::int64_t* const columns = work.made.columns + work.made.count;
-    if (task.derivatives == 2 && count <= few_nodes) {
+    if (count <= few_nodes && task.derivatives == 2 && work.used_count == 2) {
       FewNodes few;
       if (few.sort(nodes, count)) {
         few.add_up(task.weights + 2 * first, count, work.coefficients[0], work.coefficients[1]);
@@ -152,9 +168,10 @@ struct PointRows<1> {
       }
     }
     rank_nodes(nodes, count, work.rank);
-    if (task.derivatives == 2) {
+    const int all_used = work.used_count == task.derivatives ? work.used_count : 0;
+    if (all_used == 2) {
       add_up<2>(task, first, count, work);
-    } else if (task.derivatives == 3) {
+    } else if (all_used == 3) {
       add_up<3>(task, first, count, work);
     } else {
       add_up<0>(task, first, count, work);
@@ -171,13 +188,14 @@ struct PointRows<1> {
   static constexpr int chains = 4;  ///< independent of each other
 
   template <int Derivatives>
-  static double sum_at(const double* w, int derivatives, const Buffers<1>& work) {
-    const int m = Derivatives > 0 ? Derivatives : derivatives;
-    double sum = w[0] * work.coefficients[0][0];
-    for (int d = 1; d < m; ++d) sum += w[d] * work.coefficients[d][0];
+  static double sum_at(const double* w, const Buffers<1>& work) {
+    double sum = 0;
+    for (int u = 0; u < (Derivatives > 0 ? Derivatives : work.used_count); ++u) {
+      sum += w[Derivatives > 0 ? u : work.used[u]] * work.coefficients[u][0];
+    }
     return sum;
   }
-  /// Derivatives is their number, 0 where it is not known before.
+  /// Derivatives is their number where all are used, 0 where it is not known before.
   template <int Derivatives>
   static void add_up(const RowsTask& task, std::int64_t first, int count, Buffers<1>& work) {
     double high[chains] = {};
@@ -185,7 +203,7 @@ struct PointRows<1> {
     const int m = Derivatives > 0 ? Derivatives : task.derivatives;
     const double* const weights = task.weights + first * m;
     const auto add = [&](int j, int chain) {
-      const double sum = sum_at<Derivatives>(weights + static_cast<long>(j) * m, m, work);
+      const double sum = sum_at<Derivatives>(weights + static_cast<long>(j) * m, work);
       const double size = __builtin_fabs(sum);
       work.entries_of_one[j] = sum;
       high[chain] = size > high[chain] ? size : high[chain];
@@ -206,7 +224,10 @@ struct PointRows<1> {
 /// True when a row has the columns that are there.
 bool has_columns(const RowsTask& task, int row, const std::int64_t* columns, int length) {
   const std::int64_t begin = task.offsets[row];
-  return task.offsets[row + 1] - begin == length && are_same(task.columns + begin, columns, length);
+  if (task.offsets[row + 1] - begin != length) return false;
+  std::int64_t difference = 0;
+  for (int i = 0; i < length; ++i) difference |= task.columns[begin + i] ^ columns[i];
+  return difference == 0;
 }
 
 /// Makes the rows of the points; returns the first one that has not the columns that are there, -1
@@ -239,15 +260,24 @@ int make_rows_with(const RowsTask& task, Buffers<Fields>& work) {
   return -1;
 }
 
+/// Notes a derivative and its coefficients unless all are zero, and others are used.
+template <int Fields>
+void take_coefficients(const RowsTask& task, int derivative, Buffers<Fields>& work) {
+  using Work = Buffers<Fields>;
+  const double* const from = task.coefficients + derivative * Work::entries;
+  bool is_used = derivative + 1 == task.derivatives && work.used_count == 0;
+  for (int e = 0; e < Work::entries; ++e) is_used = is_used || from[e] != 0;
+  if (!is_used) return;
+  const int u = work.used_count++;
+  work.used[u] = derivative;
+  for (int e = 0; e < Work::width; ++e) work.coefficients[u][e] = from[e % Work::entries];
+}
+
 template <int Fields>
 void make_rows_of(const RowsTask& task) {
   Buffers<Fields> work;
-  using Work = Buffers<Fields>;
-  for (int d = 0; d < task.derivatives; ++d) {
-    for (int e = 0; e < Work::width; ++e) {
-      work.coefficients[d][e] = e < Work::entries ? task.coefficients[d * Work::entries + e] : 0;
-    }
-  }
+  work.used_count = 0;
+  for (int d = 0; d < task.derivatives; ++d) take_coefficients(task, d, work);
   const int other = make_rows_with<Fields>(task, work);
   work.made.write(task);
   end_streams();
