@@ -1,5 +1,6 @@
 #pragma once
 
+#include "methods/core/simd/lane_anchors.hpp"
 #include "methods/core/simd/pack.hpp"
 #include "methods/core/simd/stencil_table.hpp"
 
@@ -44,21 +45,41 @@ unsigned coincident_lanes(const LaneStencils& group, const Pack* squares, int si
 /// Whether some lanes have fewer nodes.
 enum class Padding { none, some };
 
-/// Where the nodes of a group lie.
+/// Where the nodes of a group lie, and how they are scaled.
+template <int Dim>
 struct LaneNodes {
   const int* ids[lanes];
   int counts[lanes];
   int least;  ///< nodes that every lane has
+  const double* anchors[lanes];
+  Pack origin[Dim];
+  Pack inverse;    ///< 1 / R
+  Pack by_square;  ///< of that
 };
 
-/// Fills `z`, not yet scaled, and the squares of the distances for nodes begin to end - 1; returns
-/// the largest square.
+/// What is found of a group on the way.
+struct LaneDistances {
+  Pack largest;  ///< square
+  Pack before;   ///< square over R^2 of the node before
+  Pack nearest;  ///< least difference of two that follow each other
+};
+
+template <int Dim>
+[[gnu::always_inline]] inline Pack square_of(const Pack* z) {
+  Pack square = all(0);
+  for (int c = 0; c < Dim; ++c) square = square + z[c] * z[c];
+  return square;
+}
+
+/// Fills `z` and the squares of the distances over R for nodes begin to end - 1.
 template <int Dim, Padding padding>
-[[gnu::always_inline]] inline Pack gather_nodes(const StencilTable& table, const LaneNodes& nodes,
-                                                int begin, int end, const Pack* origin,
-                                                const LaneStencils& group) {
-  Pack largest = all(0);
-  const double* const places = table.nodes;
+[[gnu::always_inline]] inline void gather_nodes(const double* places, const LaneNodes<Dim>& nodes,
+                                                int begin, int end, const LaneStencils& group,
+                                                LaneDistances& found) {
+  LaneDistances distances = found;
+  const Pack inverse = nodes.inverse;
+  const Pack by_square = nodes.by_square;
+  const Pack sizes = group.size;
   Pack* to = group.z + static_cast<long>(begin) * Dim;
   Pack* const squares = group.rho;
   for (int j = begin; j < end; ++j) {
@@ -67,81 +88,95 @@ template <int Dim, Padding padding>
     for (int lane = 0; lane < lanes; ++lane) {
       node[lane] = padding == Padding::none || j < nodes.counts[lane]
                        ? places + static_cast<long>(nodes.ids[lane][j]) * Dim
-                       : table.anchors + static_cast<long>(group.anchors[lane]) * Dim;
+                       : nodes.anchors[lane];
     }
     Pack z[Dim];
     load_nodes<Dim>(node, z);
-    Pack square = all(0);
-    for (int c = 0; c < Dim; ++c) {
-      z[c] = z[c] - origin[c];
-      square = square + z[c] * z[c];
-      *to++ = z[c];
-    }
+    for (int c = 0; c < Dim; ++c) z[c] = z[c] - nodes.origin[c];
+    Pack square = square_of<Dim>(z);
+    distances.largest = max(distances.largest, square);
+    square = square * by_square;
+    if (padding == Padding::some) square = choose(less(all(j), sizes), square, all(1));
+    for (int c = 0; c < Dim; ++c) *to++ = z[c] * inverse;
     squares[j] = square;
-    largest = max(largest, square);
+    distances.nearest = min(distances.nearest, square - distances.before);
+    distances.before = square;
   }
-  return largest;
+  found = distances;
 }
 
-/// Scales what `gather_nodes` found by the radius, and looks for nodes at one place.
+/// Finds the nodes of anchors `first` and following of a table.
 template <int Dim>
-[[gnu::always_inline]] inline void scale_nodes(int size, int least, Pack largest,
-                                               LaneStencils& group) {
-  const unsigned proper = less(all(0), largest);
-  group.radius = choose(proper, sqrt(largest), all(1));
-  const Pack inverse = all(1) / group.radius;
-  Pack* const z = group.z;
-  Pack* const rho = group.rho;
-  for (int i = 0; i < size * Dim; ++i) z[i] = z[i] * inverse;
-  const Pack sizes = group.size;
-  const Pack by_square = inverse * inverse;
-  Pack nearest = all(1);
-  Pack before = all(-1);
-  for (int j = 0; j < size; ++j) {
-    Pack square = rho[j] * by_square;
-    if (j >= least) square = choose(less(all(j), sizes), square, all(1));
-    nearest = min(nearest, square - before);
-    before = square;
-    rho[j] = square;
+[[gnu::always_inline]] inline void find_nodes(const StencilTable& table, int first,
+                                              LaneNodes<Dim>& nodes, LaneStencils& group) {
+  const LaneAnchors anchors = anchors_of(table, first);
+  double count[lanes];
+  nodes.least = table.size;
+  for (int lane = 0; lane < lanes; ++lane) {
+    const int anchor = anchors.of[lane];
+    group.anchors[lane] = anchor;
+    nodes.anchors[lane] = table.anchors + static_cast<long>(anchor) * Dim;
   }
-  group.coincident = every_lane & ~proper;
-  // Nodes at one place are equally far away.
-  if (less(nearest, all(distinct_squares)) != 0) {
-    group.coincident |= coincident_lanes<Dim>(group, rho, size);
+  if (anchors.in_a_row) {
+    for (int lane = 0; lane < lanes; ++lane) {
+      nodes.ids[lane] = anchors.ids + static_cast<long>(lane) * table.size;
+      nodes.counts[lane] = table.size;
+    }
+  } else {
+    for (int lane = 0; lane < lanes; ++lane) {
+      const std::int64_t* const offsets = table.offsets + anchors.of[lane];
+      nodes.ids[lane] = table.ids + offsets[0];
+      nodes.counts[lane] = static_cast<int>(offsets[1] - offsets[0]);
+      count[lane] = nodes.counts[lane];
+      nodes.least = nodes.counts[lane] < nodes.least ? nodes.counts[lane] : nodes.least;
+    }
   }
+  // A load of what was stored in parts waits for all stores before it.
+  group.size = nodes.least == table.size ? all(table.size) : load(count);
+  load_nodes<Dim>(nodes.anchors, nodes.origin);
+}
+
+/// Squares of the distances of the last nodes, which are the farthest.
+template <int Dim>
+[[gnu::always_inline]] inline Pack last_squares(const double* places, const LaneNodes<Dim>& nodes) {
+  const double* node[lanes];
+  for (int lane = 0; lane < lanes; ++lane) {
+    node[lane] = places + static_cast<long>(nodes.ids[lane][nodes.counts[lane] - 1]) * Dim;
+  }
+  Pack z[Dim];
+  load_nodes<Dim>(node, z);
+  for (int c = 0; c < Dim; ++c) z[c] = z[c] - nodes.origin[c];
+  return square_of<Dim>(z);
 }
 
 /// Gathers the stencils of anchors `first` and following of a table as `gather_lanes` does, but
 /// leaves the squares of the distances in `rho`.
 template <int Dim>
 void gather_squares(const StencilTable& table, int first, LaneStencils& group) {
-  LaneNodes nodes;
-  const double* anchor_place[lanes];
-  double count[lanes];
-  nodes.least = table.size;
-  for (int lane = 0; lane < lanes; ++lane) {
-    const int place = first + lane < table.count ? first + lane : table.count - 1;
-    const int anchor = table.chosen[place];
-    group.anchors[lane] = anchor;
-    nodes.ids[lane] = table.ids + table.offsets[anchor];
-    nodes.counts[lane] = static_cast<int>(table.offsets[anchor + 1] - table.offsets[anchor]);
-    count[lane] = nodes.counts[lane];
-    nodes.least = nodes.counts[lane] < nodes.least ? nodes.counts[lane] : nodes.least;
-    anchor_place[lane] = table.anchors + static_cast<long>(anchor) * Dim;
+  LaneNodes<Dim> nodes;
+  find_nodes<Dim>(table, first, nodes, group);
+  fetch_ahead(nodes.anchors[0]);
+  fetch_ahead(nodes.anchors[lanes / 2]);
+  LaneDistances found{last_squares<Dim>(table.nodes, nodes), all(-1), all(1)};
+  Pack farthest;
+  do {
+    farthest = found.largest;
+    const unsigned proper = less(all(0), farthest);
+    group.radius = choose(proper, sqrt(farthest), all(1));
+    group.coincident = every_lane & ~proper;
+    nodes.inverse = all(1) / group.radius;
+    nodes.by_square = nodes.inverse * nodes.inverse;
+    found = {farthest, all(-1), all(1)};
+    gather_nodes<Dim, Padding::none>(table.nodes, nodes, 0, nodes.least, group, found);
+    if (nodes.least < table.size) {
+      gather_nodes<Dim, Padding::some>(table.nodes, nodes, nodes.least, table.size, group, found);
+    }
+    // Nodes that round-off alone tells apart may have changed places.
+  } while (less(farthest, found.largest) != 0);
+  // Nodes at one place are equally far away.
+  if (less(found.nearest, all(distinct_squares)) != 0) {
+    group.coincident |= coincident_lanes<Dim>(group, group.rho, table.size);
   }
-  // A load of what was stored in parts waits for all stores before it.
-  group.size = nodes.least == table.size ? all(table.size) : load(count);
-  Pack origin[Dim];
-  load_nodes<Dim>(anchor_place, origin);
-  fetch_ahead(anchor_place[0]);
-  fetch_ahead(anchor_place[lanes / 2]);
-  Pack largest = gather_nodes<Dim, Padding::none>(table, nodes, 0, nodes.least, origin, group);
-  if (nodes.least < table.size) {
-    const Pack rest =
-        gather_nodes<Dim, Padding::some>(table, nodes, nodes.least, table.size, origin, group);
-    largest = max(largest, rest);
-  }
-  scale_nodes<Dim>(table.size, nodes.least, largest, group);
 }
 
 /// Gathers the stencils of anchors `first` and following of a table; `lanes` of them or what is
