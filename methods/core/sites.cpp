@@ -17,12 +17,21 @@ std::vector<int> Sites<Dim>::wanted_anchors() const {
 template <int Dim>
 Stencils points_by_anchor(const Sites<Dim>& sites) {
   Stencils lists;
+  const int count = sites.point_count();
+  lists.nodes.resize(sites.point_anchor.size());
+  int strays = count - sites.anchor_count();
+  for (int p = 0; p < count; ++p) strays |= sites.point_anchor[p] - p;
+  if (strays == 0) {  // each anchor is its only point
+    std::iota(lists.nodes.begin(), lists.nodes.end(), 0);
+    lists.offsets.resize(static_cast<std::size_t>(count) + 1);
+    std::iota(lists.offsets.begin(), lists.offsets.end(), std::int64_t{0});
+    return lists;
+  }
   lists.offsets.assign(sites.anchor_count() + 1, 0);
   for (int anchor : sites.point_anchor) ++lists.offsets[anchor + 1];
   std::partial_sum(lists.offsets.begin(), lists.offsets.end(), lists.offsets.begin());
-  lists.nodes.resize(sites.point_anchor.size());
   auto next = lists.offsets;
-  for (int p = 0; p < sites.point_count(); ++p) lists.nodes[next[sites.point_anchor[p]]++] = p;
+  for (int p = 0; p < count; ++p) lists.nodes[next[sites.point_anchor[p]]++] = p;
   return lists;
 }
 
