@@ -102,7 +102,8 @@ void add_goals(bool& failed, double all, double all_stretch) {
     alpha[c] = 2;
     laplacian.merge({alpha});
   }
-  // We find the condition in any case; the rival does so in the first goal only.
+  // We bound the condition, and find it where that does not do; the rival finds it in the first
+  // goal.
   add_goal({fmt::format("taylor/{}d/all", Dim), rival + " with its exact 1-norm condition", all,
             all_stretch},
            failed, [=] { return prepare<Dim>(derivatives, "condition"); });

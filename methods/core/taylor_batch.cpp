@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "methods/core/simd/taylor_condition.hpp"
 
 namespace strongpoint {
 namespace {
 
-/// Numbers of gathered stencils that are treated at a time: they stay near, and what a call of a
+/// Numbers of gathered stencils that are weighed at a time: they stay near, and what a call of a
 /// kernel costs is shared by many.
 constexpr std::size_t gathered_at_a_time = 12288;
 
@@ -51,13 +52,12 @@ void TaylorBatch<Dim>::sort_by_size(const Sites<Dim>& sites, std::span<const int
 
 template <int Dim>
 template <class Treat>
-void TaylorBatch<Dim>::each_part(Treat treat) {
+void TaylorBatch<Dim>::each_part(std::size_t numbers, Treat treat) {
   const std::size_t lanes = lanes_of(simd_path());
   const std::size_t count = by_size_.size();
   for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
     const int size = by_size_[std::min(begin + lanes, count) - 1].first;
-    const std::size_t most =
-        std::max<std::size_t>(1, gathered_at_a_time / (lanes * size * (Dim + 2)));
+    const std::size_t most = std::max<std::size_t>(1, numbers / (lanes * size * (Dim + 2)));
     end = begin;
     for (std::size_t group = 0; group < most && end < count; ++group) {
       const std::size_t next = std::min(end + lanes, count);
@@ -97,33 +97,38 @@ void TaylorBatch<Dim>::tabulate(const MonomialBasis<Dim>& basis,
 }
 
 template <int Dim>
-GatherTask TaylorBatch<Dim>::gather(const Sites<Dim>& sites, const double* anchors,
-                                    const std::int64_t* offsets, const int* ids, int most_nodes,
-                                    const WeightFunction& weight) {
+GatherTask TaylorBatch<Dim>::prepare(const StencilTable& table, std::size_t room,
+                                     const WeightFunction& weight) {
   const std::size_t lanes = lanes_of(simd_path());
-  const std::size_t groups = (chosen_.size() + lanes - 1) / lanes;
-  const std::size_t size = most_nodes;
-  grow_to(z_, groups * lanes * size * Dim);
-  grow_to(rho_, groups * lanes * size);
-  grow_to(squared_, groups * lanes * size);
+  const std::size_t groups = (table.count + lanes - 1) / lanes;
+  grow_to(z_, room * lanes * table.size * Dim);
+  grow_to(rho_, room * lanes * table.size);
   grow_to(radius_, groups * lanes);
   grow_to(faulty_, groups);
   grow_to(done_, groups);
-  const GatherTask task{
-      {sites.nodes.data(), anchors, offsets, ids, chosen_.data(), static_cast<int>(chosen_.size()),
-       most_nodes},
-      Dim,
-      weight.uses_volumes() || weight.is_one() ? Distances::squares : Distances::roots,
-      z_.data(),
-      rho_.data(),
-      radius_.data(),
-      faulty_.data()};
+  return {table,
+          Dim,
+          weight.uses_volumes() || weight.is_one() ? Distances::squares : Distances::roots,
+          z_.data(),
+          rho_.data(),
+          radius_.data(),
+          faulty_.data()};
+}
+
+template <int Dim>
+GatherTask TaylorBatch<Dim>::gather(const Sites<Dim>& sites, const StencilTable& table,
+                                    const WeightFunction& weight) {
+  const std::size_t lanes = lanes_of(simd_path());
+  const std::size_t size = table.size;
+  const std::size_t groups = (table.count + lanes - 1) / lanes;
+  const GatherTask task = prepare(table, groups, weight);
   gather_stencils(task);
   if (weight.is_one()) return task;
   for (std::size_t group = 0; group < groups; ++group) {  // the centre's distance does not count
     double* const centre = rho_.data() + group * lanes * size;
     std::fill(centre, centre + lanes, 1.0);
   }
+  grow_to(squared_, groups * lanes * size);
   weigh(sites, task, weight);
   return task;
 }
@@ -158,28 +163,43 @@ void TaylorBatch<Dim>::fill(const TaylorParts<Dim>& fit, const StencilBatch<Dim>
   stencil_of_place_.assign(batch.anchors.begin(), batch.anchors.end());
   sort_by_size(batch.sites, batch.anchors, batch.stencils, terms + 1);
   tabulate(fit.basis, batch.derivatives);
-  each_part([&](std::span<const Sized> part) {
-    const int size = part.back().first;
-    chosen_.clear();
-    for (const auto& [ignored, place] : part) chosen_.push_back(batch.anchors[place]);
-    grow_to(scratch_, taylor_scratch(size, terms, batch.derivatives.size(), lanes));
-    fit_taylor(
-        {gather(batch.sites, batch.sites.anchors.data(), batch.stencils.offsets.data(),
-                batch.stencils.nodes.data(), size, fit.weight),
-         fit.basis.degree(),
-         fit.limits.least_pivot,
-         fit.limits.condition,
-         fit.weight.is_one() ? nullptr : squared_.data(),
-         {batch.derivatives.size(), orders_.data(), factors_.data(), powers_.data(), own_.data()},
-         {batch.sites.points.data(), batch.points.offsets.data(), batch.points.nodes.data(),
-          weights.offsets.data(), weights.values.data()},
-         weights.values.size() >= least_streamed ? Output::streamed : Output::cached,
-         scratch_.data(),
-         done_.data()});
-    for (std::size_t i = 0; i < part.size(); ++i) {
-      if ((done_[i / lanes] >> (i % lanes) & 1U) != 0) outcomes[part[i].second] = LocalOutcome::ok;
-    }
-  });
+  // Without weights a kernel gathers each group when it comes to it.
+  const bool weighs = !fit.weight.is_one();
+  each_part(
+      weighs ? gathered_at_a_time : std::numeric_limits<std::size_t>::max(),
+      [&](std::span<const Sized> part) {
+        const int size = part.back().first;
+        chosen_.resize(part.size());
+        for (std::size_t i = 0; i < part.size(); ++i) chosen_[i] = batch.anchors[part[i].second];
+        grow_to(scratch_, taylor_scratch(size, terms, batch.derivatives.size(), lanes));
+        const StencilTable table{batch.sites.nodes.data(),
+                                 batch.sites.anchors.data(),
+                                 batch.stencils.offsets.data(),
+                                 batch.stencils.nodes.data(),
+                                 chosen_.data(),
+                                 static_cast<int>(chosen_.size()),
+                                 size};
+        fit_taylor({weighs ? gather(batch.sites, table, fit.weight) : prepare(table, 1, fit.weight),
+                    fit.basis.degree(),
+                    fit.limits.least_pivot,
+                    fit.limits.condition,
+                    weighs ? squared_.data() : nullptr,
+                    {batch.derivatives.size(), orders_.data(), factors_.data(), powers_.data(),
+                     own_.data()},
+                    {batch.sites.points.data(), batch.points.offsets.data(),
+                     batch.points.nodes.data(), weights.offsets.data(), weights.values.data()},
+                    weights.values.size() >= least_streamed ? Output::streamed : Output::cached,
+                    scratch_.data(),
+                    done_.data()});
+        for (std::size_t i = 0; i < part.size(); i += lanes) {
+          const unsigned done = done_[i / lanes];
+          const std::size_t end = std::min(i + lanes, part.size());
+          for (std::size_t j = i; j < end; ++j) {
+            LocalOutcome& outcome = outcomes[part[j].second];
+            outcome = (done >> (j - i) & 1U) != 0 ? LocalOutcome::ok : outcome;
+          }
+        }
+      });
 }
 
 template <int Dim>
@@ -203,7 +223,7 @@ void TaylorBatch<Dim>::judge(const TaylorParts<Dim>& fit, const Sites<Dim>& site
   }
   derivatives_ = {};
   sort_by_size(sites, anchors, stencils, terms + 1);
-  each_part([&](std::span<const Sized> part) {
+  each_part(gathered_at_a_time, [&](std::span<const Sized> part) {
     const int size = part.back().first;
     chosen_.clear();
     for (const auto& [ignored, place] : part) chosen_.push_back(place);
@@ -211,11 +231,14 @@ void TaylorBatch<Dim>::judge(const TaylorParts<Dim>& fit, const Sites<Dim>& site
     grow_to(scratch_, lanes * size);
     grow_to(one_, padded);
     grow_to(maximum_, padded);
-    judge_taylor({gather(sites, origins_.data(), stencils.offsets.data() + first,
-                         stencils.nodes.data(), size, fit.weight),
-                  fit.basis.degree(), fit.limits.least_pivot, fit.limits.condition,
-                  fit.weight.is_one() ? nullptr : squared_.data(), factors_.data(), orders_.data(),
-                  scratch_.data(), one_.data(), maximum_.data(), done_.data()});
+    judge_taylor(
+        {gather(sites,
+                {sites.nodes.data(), origins_.data(), stencils.offsets.data() + first,
+                 stencils.nodes.data(), chosen_.data(), static_cast<int>(chosen_.size()), size},
+                fit.weight),
+         fit.basis.degree(), fit.limits.least_pivot, fit.limits.condition,
+         fit.weight.is_one() ? nullptr : squared_.data(), factors_.data(), orders_.data(),
+         scratch_.data(), one_.data(), maximum_.data(), done_.data()});
     for (std::size_t i = 0; i < part.size(); ++i) {
       if ((done_[i / lanes] >> (i % lanes) & 1U) == 0) continue;
       // |A|_2^2 <= |A|_1 |A|_max, and either is at most sqrt(m) |A|_2.

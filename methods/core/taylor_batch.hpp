@@ -60,14 +60,17 @@ class TaylorBatch {
 
   void sort_by_size(const Sites<Dim>& sites, std::span<const int> anchors, const Stencils& stencils,
                     int needed);
-  /// Calls treat(part) with parts of by_size_ that share a size, padded, and stay in the cache.
+  /// Calls treat(part) with parts of by_size_ that share a size, padded, and take at most so many
+  /// numbers when they are gathered, or are a group.
   template <class Treat>
-  void each_part(Treat treat);
+  void each_part(std::size_t numbers, Treat treat);
   void tabulate(const MonomialBasis<Dim>& basis, const Derivatives<Dim>& derivatives);
-  /// Gathers the stencils of `chosen_`, of `size` nodes at most, and weighs their nodes; `anchors`,
-  /// `offsets` and `ids` are those of the table.
-  GatherTask gather(const Sites<Dim>& sites, const double* anchors, const std::int64_t* offsets,
-                    const int* ids, int size, const WeightFunction& weight);
+  /// What kernels read and fill for the stencils of a table of `chosen_`, with room for the nodes
+  /// of some groups.
+  GatherTask prepare(const StencilTable& table, std::size_t room, const WeightFunction& weight);
+  /// Gathers the stencils and weighs their nodes.
+  GatherTask gather(const Sites<Dim>& sites, const StencilTable& table,
+                    const WeightFunction& weight);
   void weigh(const Sites<Dim>& sites, const GatherTask& task, const WeightFunction& weight);
 };
 

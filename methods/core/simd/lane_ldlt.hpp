@@ -62,7 +62,7 @@ struct InverseFactors {
     }
   }
 
-  /// At least the square of the inverse's 1-norm, and mostly below ten times it. An entry of a
+  /// At least the square of the inverse's 1-norm, mostly by less than a factor of 16. An entry of a
   /// definite matrix M is at most sqrt(M_ii M_jj), so that the entries of a column add up to at
   /// most sqrt(M_jj) sum_i sqrt(M_ii), where the sum is at most sqrt(Size trace M).
   [[gnu::always_inline]] Pack square_bound() const {

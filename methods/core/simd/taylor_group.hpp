@@ -1,8 +1,8 @@
 #pragma once
 
-#include "methods/core/simd/lane_gather.hpp"
 #include "methods/core/simd/lane_ldlt.hpp"
 #include "methods/core/simd/lane_monomials.hpp"
+#include "methods/core/simd/lane_points.hpp"
 #include "methods/core/simd/lane_scatter.hpp"
 #include "methods/core/simd/lane_weights.hpp"
 #include "methods/core/simd/taylor_kernel.hpp"
@@ -30,18 +30,20 @@ class TaylorGroup {
       : task_(task),
         table_(task.gathered.table),
         waiting_(waiting),
+        points_(table_, task.points, first),
         size_(table_.size),
         count_(task.derivatives.count),
         first_(first) {
     const long place = first / lanes;
-    z_ = reinterpret_cast<const Pack*>(task.gathered.z) + place * size_ * Dim;
+    const long row = task.squared == nullptr ? 0 : place * size_;
+    z_ = reinterpret_cast<const Pack*>(task.gathered.z) + row * Dim;
     radius_ = load(task.gathered.radius + first);
     Pack* const room = reinterpret_cast<Pack*>(task.scratch);
     rows_ = room + size_;
     piece_ = rows_ + static_cast<long>(size_) * count_;
     right_sides_ = piece_ + static_cast<long>(size_) * count_;
     solutions_ = right_sides_ + static_cast<long>(terms) * count_;
-    w_ = mask_weights(table_, first, squares_of(task.squared, place * size_), room);
+    w_ = mask_weights(table_, first, squares_of(task.squared, row), room);
   }
 
   /// Bits of the lanes whose weights were written.
@@ -50,18 +52,9 @@ class TaylorGroup {
     for (int lane = table_.count - first_; lane < lanes; ++lane) good &= ~(1U << lane);
     if (good == 0) return 0;
     scale_orders();
-    long most = 0;
-    for (int lane = 0; lane < lanes; ++lane) {
-      if ((good >> lane & 1U) != 0) most = points_of(lane) > most ? points_of(lane) : most;
-    }
+    const long most = points_.most(good);
     unsigned failed = 0;
-    for (long p = 0; p < most; ++p) {
-      unsigned served = good;
-      for (int lane = 0; lane < lanes; ++lane) {
-        if (points_of(lane) <= p) served &= ~(1U << lane);
-      }
-      failed |= serve(p, served);
-    }
+    for (long p = 0; p < most; ++p) failed |= serve(p, good & points_.with(p));
     return good & ~failed;
   }
 
@@ -74,6 +67,7 @@ class TaylorGroup {
   const TaylorTask& task_;
   const StencilTable& table_;
   Piece& waiting_;
+  const LanePoints<Dim> points_;
   const Pack* z_;
   const Pack* w_;      ///< (n) T^2, 0 at the centre and in padding; null for ones
   Pack* rows_;         ///< (D, n) weights
@@ -84,14 +78,6 @@ class TaylorGroup {
   int count_;  ///< D
   int first_;
   unsigned delicate_ = 0;  ///< lanes whose solutions are refined
-
-  int anchor(int lane) const {
-    return table_.chosen[first_ + lane < table_.count ? first_ + lane : table_.count - 1];
-  }
-  long points_of(int lane) const {
-    const std::int64_t* const offsets = task_.points.offsets + anchor(lane);
-    return offsets[1] - offsets[0];
-  }
 
   /// Bits of the lanes whose moment matrices are well conditioned.
   unsigned factorise() {
@@ -123,34 +109,16 @@ class TaylorGroup {
     for (int q = 1; q <= highest_order; ++q) order_factor_[q] = order_factor_[q - 1] * inverse;
   }
 
-  /// The p-th point of each lane, relative to the anchor and over R. Lanes without one get their
-  /// last.
-  void find_point(long p, Pack* at) const {
-    const double* place[lanes];
-    const double* origin[lanes];
-    for (int lane = 0; lane < lanes; ++lane) {
-      const int a = anchor(lane);
-      const long count = points_of(lane);
-      const std::int64_t list = task_.points.offsets[a];
-      origin[lane] = table_.anchors + static_cast<long>(a) * Dim;
-      place[lane] =
-          count == 0
-              ? origin[lane]
-              : task_.points.points +
-                    static_cast<long>(task_.points.ids[list + (p < count ? p : count - 1)]) * Dim;
-    }
-    Pack from[Dim];
-    load_nodes<Dim>(place, at);
-    fetch_ahead(place[0]);
-    fetch_ahead(place[lanes / 2]);
-    load_nodes<Dim>(origin, from);
-    for (int c = 0; c < Dim; ++c) at[c] = (at[c] - from[c]) * order_factor_[1];
-  }
-
-  /// Fills right-hand sides and solutions.
-  void solve(const Pack* at) {
+  /// Fills right-hand sides and solutions for the p-th points.
+  void solve(long p) {
+    if (points_.are_anchors()) return solve_at_anchor();
+    Pack at[Dim];
+    points_.find(p, at);
     Pack farthest = all(0);
-    for (int c = 0; c < Dim; ++c) farthest = max(farthest, abs(at[c]));
+    for (int c = 0; c < Dim; ++c) {
+      at[c] = at[c] * order_factor_[1];
+      farthest = max(farthest, abs(at[c]));
+    }
     if (less(all(0), farthest) == 0) return solve_at_anchor();
     Pack monomials[terms + 1];
     monomials[0] = all(1);
@@ -197,16 +165,23 @@ class TaylorGroup {
         solution[d][a] = solutions_[static_cast<long>(first + d) * terms + a];
       }
     }
-    for (int j = 1; j < size_; ++j) {
+    // Packs may be anything to the compiler, members too.
+    const Pack* z = z_;
+    Pack* row = rows_ + first;
+    const int size = size_;
+    const long step = count_;
+    for (int j = 1; j < size; ++j) {
+      z += Dim;
+      row += step;
       Pack basis[terms];
-      evaluate_monomials<Dim, Order>(z_ + static_cast<long>(j) * Dim, basis);
+      evaluate_monomials<Dim, Order>(z, basis);
 #pragma GCC unroll 8
       for (int d = 0; d < Count; ++d) {
         Pack sum = basis[0] * solution[d][0];
 #pragma GCC unroll 64
         for (int a = 1; a < terms; ++a) sum = sum + basis[a] * solution[d][a];
         sum = weighted(w, j, sum);
-        weight(first + d, j) = sum;
+        row[d] = sum;
         centre[d] = centre[d] - sum;
       }
     }
@@ -251,9 +226,7 @@ class TaylorGroup {
   /// finite.
   unsigned serve(long p, unsigned served) {
     constexpr int most = derivatives_at_once<terms>;
-    Pack at[Dim];
-    find_point(p, at);
-    solve(at);
+    solve(p);
     for (int d = 0; d < count_; d += most) weigh_some(d, count_ - d < most ? count_ - d : most);
     for (int d = 0; delicate_ != 0 && d < count_; ++d) refine(d);
     Pack check = all(0);  // not a number if any weight is not finite
@@ -264,35 +237,30 @@ class TaylorGroup {
   }
 
   void write(long p, unsigned served) {
-    double* to[lanes];
-    int entries[lanes];
-    int least = size_ * count_;  // entries that all rows have
+    double* const piece = points_.piece(served, count_);
+    if (piece != nullptr) return write_piece(piece, size_ * count_);
+    LaneRows rows = points_.rows(p, served, count_);
+    if (is_one_piece(rows.least, rows.entries, rows.to)) {
+      return write_piece(rows.to[0], rows.least);
+    }
+    scatter_lanes(rows_, rows.least, rows.to, served);
     for (int lane = 0; lane < lanes; ++lane) {
-      to[lane] = nullptr;
-      entries[lane] = 0;
-      if ((served >> lane & 1U) == 0) continue;
-      const int point = task_.points.ids[task_.points.offsets[anchor(lane)] + p];
-      const std::int64_t* const rows = task_.points.rows + point;
-      to[lane] = task_.points.values + rows[0] * count_;
-      entries[lane] = static_cast<int>(rows[1] - rows[0]) * count_;
-      least = entries[lane] < least ? entries[lane] : least;
+      if (rows.entries[lane] <= rows.least) continue;
+      rows.to[lane] += rows.least;
+      scatter_lanes(rows_ + rows.least, rows.entries[lane] - rows.least, rows.to, 1U << lane);
     }
-    if (task_.output == Output::streamed && is_one_piece(least, entries, to)) {
-      waiting_.write();
-      double* const piece = reinterpret_cast<double*>(piece_);
-      double* parts[lanes];
-      for (int lane = 0; lane < lanes; ++lane)
-        parts[lane] = piece + static_cast<long>(lane) * least;
-      scatter_lanes(rows_, least, parts, every_lane);
-      waiting_ = {piece, to[0], static_cast<long>(lanes) * least};
-      return;
-    }
-    scatter_lanes(rows_, least, to, served);
-    for (int lane = 0; lane < lanes; ++lane) {
-      if (entries[lane] <= least) continue;
-      to[lane] += least;
-      scatter_lanes(rows_ + least, entries[lane] - least, to, 1U << lane);
-    }
+  }
+
+  /// Writes rows of as many entries that lie one after the other.
+  void write_piece(double* to, int entries) {
+    const bool streamed = task_.output == Output::streamed;
+    if (streamed) waiting_.write();
+    double* const piece = streamed ? reinterpret_cast<double*>(piece_) : to;
+    double* parts[lanes];
+    for (int lane = 0; lane < lanes; ++lane)
+      parts[lane] = piece + static_cast<long>(lane) * entries;
+    scatter_lanes(rows_, entries, parts, every_lane);
+    if (streamed) waiting_ = {piece, to, static_cast<long>(lanes) * entries};
   }
 };
 

@@ -1,14 +1,27 @@
 #include "methods/core/simd/taylor_kernel.hpp"
 
+#include "methods/core/simd/lane_gather.hpp"
 #include "methods/core/simd/taylor_group.hpp"
 
 namespace strongpoint::STRONGPOINT_SIMD_PATH {
 namespace {
 
+/// Gathers one group, which is fitted while it is near.
+template <int Dim>
+void gather_group(const GatherTask& task, int first) {
+  LaneStencils stencils;
+  stencils.z = reinterpret_cast<Pack*>(task.z);
+  stencils.rho = reinterpret_cast<Pack*>(task.rho);
+  gather_squares<Dim>(task.table, first, stencils);
+  store(task.radius + first, stencils.radius);
+  task.faulty[first / lanes] = stencils.coincident;
+}
+
 template <int Dim, int Order>
 void fit(const TaylorTask& task) {
   Piece waiting;
   for (int first = 0; first < task.gathered.table.count; first += lanes) {
+    if (task.squared == nullptr) gather_group<Dim>(task.gathered, first);
     task.done[first / lanes] = TaylorGroup<Dim, Order>(task, first, waiting).run();
   }
   waiting.write();

@@ -23,9 +23,10 @@ struct PointTable {
   double* values;               ///< (D * entries) the weights
 };
 
-/// Taylor fits whose nodes have been gathered: the centre comes first in each stencil.
+/// Taylor fits of stencils whose centre comes first.
 struct TaylorTask {
-  GatherTask gathered;
+  GatherTask gathered;     ///< fulfilled, where there are weights; otherwise groups are gathered as
+                           ///< they are fitted, and z and rho have room for one
   int order;               ///< highest degree of the monomials
   double least_pivot;      ///< over its diagonal entry
   double condition_limit;  ///< in the 1-norm of the moment matrix
