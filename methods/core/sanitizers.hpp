@@ -4,7 +4,7 @@ namespace strongpoint {
 
 // GCC says by macros what the code is checked by, clang by features.
 #ifndef __has_feature
-#define __has_feature(name) 0  // NOLINT(bugprone-reserved-identifier): clang's own name
+#define __has_feature(name) 0  // clang's own name
 #endif
 
 /// True where every access to memory is checked: memory that is given back has to be freed.
