@@ -22,23 +22,23 @@ using Plane = typename BlockAmg<Size, Coarse>::Plane;
 
 /// From the finest level to the first coarse one.
 template <int Size, int Coarse>
-Transfer<Size, Coarse> first_transfer(const BlockMatrix<Size>& matrix, Aggregates aggregates,
+Transfer<Size, Coarse> first_transfer(const BlockMatrix<Size>& matrix, const Aggregates& aggregates,
                                       Plane<Size, Coarse>& plane) {
   if constexpr (Size == Coarse) {
-    return constant_transfer(matrix, std::move(aggregates));
+    return constant_transfer(matrix, aggregates);
   } else {
-    return rigid_transfer(std::move(aggregates), plane.bodies, plane.weights);
+    return rigid_transfer(aggregates, plane.bodies, plane.weights);
   }
 }
 
 /// From a coarse level to the next.
 template <int Size, int Coarse>
-Transfer<Coarse, Coarse> next_transfer(const BlockMatrix<Coarse>& matrix, Aggregates aggregates,
-                                       Plane<Size, Coarse>& plane) {
+Transfer<Coarse, Coarse> next_transfer(const BlockMatrix<Coarse>& matrix,
+                                       const Aggregates& aggregates, Plane<Size, Coarse>& plane) {
   if constexpr (Size == Coarse) {
-    return constant_transfer(matrix, std::move(aggregates));
+    return constant_transfer(matrix, aggregates);
   } else {
-    return rigid_transfer(std::move(aggregates), plane.bodies);
+    return rigid_transfer(aggregates, plane.bodies);
   }
 }
 
@@ -106,9 +106,9 @@ BlockAmg<Size, Coarse>::BlockAmg(const BlockMatrix<Size>& matrix, const Paramete
   while (coarse.rows() > parameters_.coarsest_nodes) {
     // A level that hardly coarsens costs more than it gives.
     constexpr double most_share = 0.8;
-    Aggregates aggregates = aggregate(coarse, parameters_.strong);
+    const Aggregates aggregates = aggregate(coarse, parameters_.strong);
     if (aggregates.count > most_share * coarse.rows()) break;
-    auto way = next_transfer<Size, Coarse>(coarse, std::move(aggregates), plane);
+    auto way = next_transfer<Size, Coarse>(coarse, aggregates, plane);
     CoarseLevel<Coarse, Coarse> next = coarsen(coarse, way);
     const Eigen::Index unknowns = static_cast<Eigen::Index>(coarse.rows()) * Coarse;
     lower_.push_back({single(coarse),

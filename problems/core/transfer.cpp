@@ -182,7 +182,8 @@ std::vector<double> product_with_down(const BlockMatrix<Size>& matrix,
 }  // namespace
 
 template <int Size>
-Transfer<Size, Size> constant_transfer(const BlockMatrix<Size>& matrix, Aggregates aggregates) {
+Transfer<Size, Size> constant_transfer(const BlockMatrix<Size>& matrix,
+                                       const Aggregates& aggregates) {
   Transfer<Size, Size> transfer;
   transfer.down.reserve(static_cast<std::size_t>(matrix.rows()) * Size * Size);
   transfer.up.reserve(transfer.down.capacity());
@@ -191,7 +192,7 @@ Transfer<Size, Size> constant_transfer(const BlockMatrix<Size>& matrix, Aggregat
     append(transfer.down, unit);
     append(transfer.up, inverse_diagonal(matrix, row));
   }
-  transfer.aggregates = std::move(aggregates);
+  transfer.aggregates = aggregates;
   return transfer;
 }
 
@@ -239,8 +240,8 @@ CoarseLevel<Size, Coarse> coarsen(const BlockMatrix<Size>& matrix,
   return level;
 }
 
-#define STRONGPOINT_INSTANTIATE(size) /* every block size that a solver takes */         \
-  template Transfer<size, size> constant_transfer(const BlockMatrix<size>&, Aggregates); \
+#define STRONGPOINT_INSTANTIATE(size) /* every block size that a solver takes */                \
+  template Transfer<size, size> constant_transfer(const BlockMatrix<size>&, const Aggregates&); \
   template CoarseLevel<size, size> coarsen(const BlockMatrix<size>&, const Transfer<size, size>&);
 STRONGPOINT_INSTANTIATE(1)
 STRONGPOINT_INSTANTIATE(2)

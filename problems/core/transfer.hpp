@@ -24,7 +24,8 @@ struct Transfer {
 /// collocation alike: those of a traction have other magnitudes and signs than those of the
 /// equilibrium.
 template <int Size>
-Transfer<Size, Size> constant_transfer(const BlockMatrix<Size>& matrix, Aggregates aggregates);
+Transfer<Size, Size> constant_transfer(const BlockMatrix<Size>& matrix,
+                                       const Aggregates& aggregates);
 
 /// Plane bodies that move as rigid ones: nodes, or aggregates of them. One with a radius also
 /// turns, its third unknown being the displacement that this gives at the radius.
