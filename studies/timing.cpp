@@ -65,7 +65,7 @@ void append_phases(const SteadyProblem<Dim>& problem, const CaseKey& key, const 
     result.push_back({phase_names[i],
                       seconds[i],
                       {},
-                      {algorithm.name, fmt::format("{:.2f}", 100 * seconds[i] / sum)}});
+                      {algorithm.name, fmt::format("{:.2f}", 100 * seconds[i] / sum), ""}});
   }
 }
 
@@ -73,12 +73,12 @@ CaseResult run(const CaseKey& key, const RunOptions& options, const Options& ext
   CaseResult result = run_steady_case(key, options);
   const double total = result.times.total();
   const double voronoi = result.times.voronoi;
-  result.quantities = {{"voronoi", voronoi, {}, {"", ""}},
-                       {"voronoi_share", 100 * voronoi / total, {}, {"", ""}},
-                       {"total", total, {}, {"", ""}}};
+  result.quantities = {{"voronoi", voronoi, {}, {"", "", ""}},
+                       {"voronoi_share", 100 * voronoi / total, {}, {"", "", ""}},
+                       {"total", total, {}, {"", "", ""}}};
   if (is_iterative(key.solver)) {
     result.quantities.push_back(
-        {"iterations", static_cast<double>(result.iterations), {}, {"", ""}});
+        {"iterations", static_cast<double>(result.iterations), {}, {"", "", result.solver}});
   }
   if (!is_taylor_fit(key.method)) return result;
   for (const NamedAlgorithm& algorithm : algorithms_of(extra)) {
@@ -105,7 +105,8 @@ int main(int argc, char** argv) {
   study.defaults.levels = "81";
   study.timed = true;
   study.rated = false;
-  study.extra_columns = {"algorithm", "share"};
+  study.extra_columns = {"algorithm", "share", "solved_by"};
+  study.variant_columns = {"algorithm", "solved_by"};
   study.extra_options = {
       {"algorithms", "both",
        "both | sort | cells | none: how the instrumented run finds neighbours and "

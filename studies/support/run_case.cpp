@@ -249,6 +249,7 @@ CaseResult solve_steady(const SteadyProblem<Dim>& problem, const CaseKey& key,
   result.nodes = scene.cloud.size();
   result.unknowns = system.unknowns();
   result.iterations = linear.iterations;
+  result.solver = linear.solver;
   result.spacing = scene.cloud.spacing();
   return result;
 }

@@ -64,6 +64,7 @@ struct CaseResult {
   std::int64_t unknowns = 0;
   double spacing = 0;  ///< (measure/N)^(1/Dim)
   int iterations = 0;  ///< of the linear solver, 0 when it is direct
+  std::string solver;  ///< what solved the system, where the one asked for has a choice
   std::vector<Quantity> quantities;
   StageTimes times;
 };
