@@ -8,8 +8,6 @@
 namespace strongpoint::STRONGPOINT_SIMD_PATH {
 namespace {
 
-constexpr int padded(int count, int unit) { return (count + unit - 1) / unit * unit; }
-
 /// Entries that were made and wait to be written, few enough to stay in the first-level cache.
 struct Made {
   static constexpr int room = 1024;
@@ -38,7 +36,7 @@ struct Made {
 template <int Fields>
 struct Buffers {
   static constexpr int entries = Fields * Fields;  ///< of a node, in all rows
-  static constexpr int width = padded(entries, lanes);
+  static constexpr int width = (entries + lanes - 1) / lanes * lanes;
 
   alignas(64) int rank[most_kernel_nodes];
   alignas(64) double coefficients[most_kernel_derivatives][width];  ///< again and again in a row
@@ -221,21 +219,23 @@ struct PointRows<1> {
   }
 };
 
+bool are_same(const std::int64_t* a, const std::int64_t* b, int count) {
+  std::int64_t difference = 0;
+  for (int i = 0; i < count; ++i) difference |= a[i] ^ b[i];
+  return difference == 0;
+}
+
 /// True when a row has the columns that are there.
 bool has_columns(const RowsTask& task, int row, const std::int64_t* columns, int length) {
   const std::int64_t begin = task.offsets[row];
-  if (task.offsets[row + 1] - begin != length) return false;
-  std::int64_t difference = 0;
-  for (int i = 0; i < length; ++i) difference |= task.columns[begin + i] ^ columns[i];
-  return difference == 0;
+  return task.offsets[row + 1] - begin == length && are_same(task.columns + begin, columns, length);
 }
 
 /// Makes the rows of the points; returns the first one that has not the columns that are there, -1
 /// for none.
 template <int Fields>
 int make_rows_with(const RowsTask& task, Buffers<Fields>& work) {
-  constexpr double ones[] = {1, 1, 1};
-  static_assert(most_kernel_fields == 3, "a factor for each field");
+  constexpr double ones[most_kernel_fields] = {1, 1, 1};
   Made& made = work.made;
   made.begin = task.offsets[0];
   for (int i = 0; i < task.count; ++i) {
