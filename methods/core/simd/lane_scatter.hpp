@@ -40,7 +40,6 @@ void stream_copy(const Number* from, long count, Number* to) {
   const auto past = static_cast<long>(reinterpret_cast<unsigned long>(to) / sizeof(Number)) % line;
   long i = 0;
   if constexpr (lanes > 1) {
-    // NOLINTNEXTLINE(clang-analyzer-core.uninitialized.Assign): the caller filled `count` numbers
     for (const long head = past == 0 ? 0 : line - past; i < head && i < count; ++i) to[i] = from[i];
     for (; i + line <= count; i += line) {
 #pragma GCC unroll 8
@@ -50,7 +49,6 @@ void stream_copy(const Number* from, long count, Number* to) {
       }
     }
   }
-  // NOLINTNEXTLINE(clang-analyzer-core.uninitialized.Assign): the caller filled `count` numbers
   for (; i < count; ++i) to[i] = from[i];
 }
 

@@ -12,8 +12,8 @@ namespace {
 struct Made {
   static constexpr int room = 1024;
 
-  alignas(64) double values[room + 2 * few_nodes];  // some are written in packs
-  alignas(64) std::int64_t columns[room + 2 * few_nodes];
+  alignas(64) double values[room + 2 * few_nodes] = {};  // some are written in packs
+  alignas(64) std::int64_t columns[room + 2 * few_nodes] = {};
   std::int64_t begin = 0;  ///< where they go
   int count = 0;
 
