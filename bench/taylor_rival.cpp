@@ -57,11 +57,14 @@ struct Rival {
     for (int i = 0; i < task.count; ++i) {
       const double inverse = gather(task.nodes, task.ids + static_cast<std::int64_t>(i) * size, i);
       fill_basis();
-      distances = z.colwise().norm();
-      task.weigh(distances.data(), size, squared.data());
-      squared[0] = 0;  // the centre's value is known
-      weighted.noalias() = basis * squared.asDiagonal();
-      moments.noalias() = weighted * basis.transpose();
+      if (task.weigh != nullptr) {
+        distances = z.colwise().norm();
+        task.weigh(distances.data(), size, squared.data());
+        squared[0] = 0;  // the centre's value is known
+        weighted.noalias() = basis * squared.asDiagonal();
+      }
+      const auto& weighed = task.weigh == nullptr ? basis : weighted;  // the centre's basis is 0
+      moments.noalias() = weighed * basis.transpose();
       lu.compute(moments);
       if (task.conditions != nullptr) {
         const Square inverted = lu.inverse();
@@ -76,7 +79,7 @@ struct Rival {
       solution = lu.solve(right);
       Eigen::Map<Eigen::MatrixXd> weights(task.values + static_cast<std::int64_t>(i) * count * size,
                                           count, size);
-      weights.noalias() = solution.transpose() * weighted;
+      weights.noalias() = solution.transpose() * weighed;
       weights.col(0) = -weights.rightCols(size - 1).rowwise().sum();
     }
   }

@@ -13,7 +13,8 @@ struct TaylorRivalTask {
   const int* ids;       ///< (n, count)
   double* values;       ///< (derivatives, n, count) the weights
   double* conditions;   ///< (count) of the moment matrices, exact, in the 1-norm; null for none
-  void (*weigh)(const double* distances, int size, double* squared);  ///< T^2 at distances over R
+  /// T^2 at distances over R; null where all weights are one.
+  void (*weigh)(const double* distances, int size, double* squared);
 };
 
 /// Fills the weights by Eigen's PartialPivLU of each moment matrix. The library is built for the

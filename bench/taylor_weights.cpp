@@ -37,9 +37,6 @@ LocalCase<Dim> make_case() {
   return made;
 }
 
-/// The weight function of the unweighted fit, as a function that is chosen when the program runs.
-void weigh_equally(const double*, int size, double* squared) { std::fill_n(squared, size, 1.0); }
-
 /// The rival's weights.
 template <int Dim>
 Weights rival_weights(const LocalCase<Dim>& local, const Derivatives<Dim>& derivatives,
@@ -53,7 +50,7 @@ Weights rival_weights(const LocalCase<Dim>& local, const Derivatives<Dim>& deriv
                              local.stencils.nodes.data(),
                              weights.values.data(),
                              conditions,
-                             weigh_equally};
+                             nullptr};
   taylor_rival_weights(&task);
   return weights;
 }
