@@ -23,11 +23,28 @@ constexpr int level = Dim == 2 ? 317 : 47;
 template <int Dim>
 constexpr int size = Dim == 2 ? 15 : 30;
 
+/// A method and its weight function as the rival gets it, null for ones.
+struct Fit {
+  const char* method;
+  void (*weigh)(const double* distances, int size, double* squared);
+};
+
+constexpr Fit equal{"mfpm", nullptr};
+void bump4(const double* distances, int size, double* squared) {
+  for (int j = 0; j < size; ++j) {
+    const double q = distances[j] / 1.1;
+    const double root = 1 - q * q;
+    squared[j] = (root * root) * (root * root);
+  }
+}
+
+constexpr Fit weighted{"lsfdm[weight=bump4]", bump4};
+
 /// Sites and stencils of a perturbed grid.
 template <int Dim>
-LocalCase<Dim> make_case() {
+LocalCase<Dim> make_case(const std::string& method) {
   LocalCase<Dim> made;
-  made.method = make_method<Dim>("mfpm").made;
+  made.method = make_method<Dim>(method).made;
   const auto rule = make_rule<Dim>(fmt::format("nearest[k={},ties=cut]", size<Dim>));
   made.stencil = rule.spec;
   made.cloud = make_cloud<Dim>(UnitCube<Dim>{}, bench_cloud, {.level = level<Dim>});
@@ -39,8 +56,8 @@ LocalCase<Dim> make_case() {
 
 /// The rival's weights.
 template <int Dim>
-Weights rival_weights(const LocalCase<Dim>& local, const Derivatives<Dim>& derivatives,
-                      double* conditions) {
+Weights rival_weights(const LocalCase<Dim>& local, const Fit& fit,
+                      const Derivatives<Dim>& derivatives, double* conditions) {
   Weights weights = weights_on_stencils<Dim>(local.sites, local.stencils, derivatives.size());
   const TaylorRivalTask task{Dim,
                              size<Dim>,
@@ -50,7 +67,7 @@ Weights rival_weights(const LocalCase<Dim>& local, const Derivatives<Dim>& deriv
                              local.stencils.nodes.data(),
                              weights.values.data(),
                              conditions,
-                             nullptr};
+                             fit.weigh};
   taylor_rival_weights(&task);
   return weights;
 }
@@ -69,12 +86,13 @@ void compare(const Weights& ours, const Weights& theirs) {
 }
 
 template <int Dim>
-Contest prepare(const Derivatives<Dim>& derivatives, const std::string& rival_finds) {
-  const auto local = std::make_shared<LocalCase<Dim>>(make_case<Dim>());
+Contest prepare(const Fit& fit, const Derivatives<Dim>& derivatives,
+                const std::string& rival_finds) {
+  const auto local = std::make_shared<LocalCase<Dim>>(make_case<Dim>(fit.method));
   const auto conditions =
       std::make_shared<std::vector<double>>(rival_finds == "condition" ? local->cloud.size() : 0);
-  const auto rival = [local, conditions, derivatives] {
-    return rival_weights<Dim>(*local, derivatives,
+  const auto rival = [local, fit, conditions, derivatives] {
+    return rival_weights<Dim>(*local, fit, derivatives,
                               conditions->empty() ? nullptr : conditions->data());
   };
   const auto ours = [local, derivatives] {
@@ -103,12 +121,18 @@ void add_goals(bool& failed, double all, double all_stretch) {
   // goal.
   add_goal({fmt::format("taylor/{}d/all", Dim), rival + " with its exact 1-norm condition", all,
             all_stretch},
-           failed, [=] { return prepare<Dim>(derivatives, "condition"); });
+           failed, [=] { return prepare<Dim>(equal, derivatives, "condition"); });
+  add_goal({fmt::format("taylor/{}d/all_weighted", Dim), rival + " with its exact 1-norm condition",
+            all, all_stretch},
+           failed, [=] { return prepare<Dim>(weighted, derivatives, "condition"); });
   add_goal({fmt::format("taylor/{}d/laplacian", Dim), rival + " without a condition", 8, 12},
-           failed, [=] { return prepare<Dim>(laplacian, ""); });
+           failed, [=] { return prepare<Dim>(equal, laplacian, ""); });
+  add_goal(
+      {fmt::format("taylor/{}d/laplacian_weighted", Dim), rival + " without a condition", 8, 12},
+      failed, [=] { return prepare<Dim>(weighted, laplacian, ""); });
   add_goal({fmt::format("taylor/{}d/all_unjudged", Dim), rival + " without a condition", all,
             all_stretch},
-           failed, [=] { return prepare<Dim>(derivatives, ""); });
+           failed, [=] { return prepare<Dim>(equal, derivatives, ""); });
 }
 
 }  // namespace
