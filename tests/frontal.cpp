@@ -137,6 +137,36 @@ TEST(Frontal, SolvesElasticityWithTractions) {
   });
 }
 
+/// Pressures of solids are numbers of another size than displacements, and rows that read
+/// displacements alone say nothing of them.
+TEST(Frontal, CorrectsFieldsOfAllSizes) {
+  constexpr double round_off = 1e-10;
+  const KnownSystem known = ElasticSystem<2>({.level = 21, .stencil = "nearest[k=15]"}).assembled();
+  LinearSystem system = known.system;
+  Eigen::VectorXd expected = known.solution;
+  constexpr double unit = 1e12;  // of the second field
+  for (Eigen::Index i = 1; i < expected.size(); i += 2) expected[i] *= unit;
+  for (std::size_t i = 0; i < system.columns.size(); ++i) {
+    if (system.columns[i] % 2 == 1) system.values[i] /= unit;
+  }
+  const LinearSolution solution = solve(system, "frontal");
+  EXPECT_EQ(solution.solver, "frontal");
+  const auto field = [](const Eigen::VectorXd& x, Eigen::Index f) {
+    return Eigen::VectorXd(x(Eigen::seqN(f, x.size() / 2, 2)));
+  };
+  for (const Eigen::Index f : {0, 1}) {
+    EXPECT_LT(difference(field(solution.x, f), field(expected, f)), round_off) << "field " << f;
+  }
+}
+
+TEST(Frontal, GivesZerosForARightHandSideOfZeros) {
+  KnownSystem known = ElasticSystem<2>({.level = 11, .stencil = "nearest[k=15]"}).assembled();
+  known.system.right_hand_side.setZero();
+  const LinearSolution solution = solve(known.system, "frontal");
+  EXPECT_EQ(solution.solver, "frontal");
+  EXPECT_TRUE(solution.x.isZero(0));
+}
+
 /// Second differences of n values have a condition of 0.4 n^2, 2e8 here, beyond what factors of
 /// single precision can correct.
 TEST(Frontal, SolvesInDoublePrecisionWhatSingleDoesNotServe) {

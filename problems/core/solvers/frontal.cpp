@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "problems/core/front_order.hpp"
 #include "problems/core/frontal_factor.hpp"
 #include "problems/core/node_graph.hpp"
@@ -6,20 +8,45 @@
 namespace strongpoint {
 namespace {
 
-/// Largest residual, relative to the right-hand side and the largest unknown, rows having a largest
-/// entry of 1.
-double residual_of(const LinearSystem& system, const Eigen::VectorXd& x,
-                   Eigen::VectorXd& residual) {
-  residual = system.right_hand_side - view_of(system) * x;
-  const double size =
-      system.right_hand_side.lpNorm<Eigen::Infinity>() + x.lpNorm<Eigen::Infinity>();
-  return residual.lpNorm<Eigen::Infinity>() / size;
-}
+/// Residuals of a system, judged row by row: fields may differ in size by many powers of ten, and
+/// each has to be right.
+class Residuals {
+ public:
+  /// The system must outlive the residuals.
+  explicit Residuals(const LinearSystem& system)
+      : system_(system), sums_(Eigen::MatrixXd::Zero(system.fields, system.rows())) {
+    for (Eigen::Index row = 0; row < system.rows(); ++row) {
+      for (std::int64_t i = system.offsets[row]; i < system.offsets[row + 1]; ++i) {
+        sums_(system.columns[i] % system.fields, row) += std::abs(system.values[i]);
+      }
+    }
+  }
+
+  /// Fills b - A x; returns the largest over the rows of |r| / (|b| + sum over the fields of |A|
+  /// times the largest value of the field), infinite where a row says 0 = r.
+  double find(const Eigen::VectorXd& x, Eigen::VectorXd& residual) const {
+    residual = system_.right_hand_side - view_of(system_) * x;
+    const Eigen::Map<const Eigen::MatrixXd> by_field(x.data(), system_.fields,
+                                                     x.size() / system_.fields);
+    const Eigen::VectorXd largest = by_field.rowwise().lpNorm<Eigen::Infinity>();
+    const Eigen::ArrayXd sizes =
+        (sums_.transpose() * largest + system_.right_hand_side.cwiseAbs()).array();
+    // 0 / 0 is no error.
+    return (residual.array() == 0)
+        .select(0.0, residual.array().abs() / sizes)
+        .maxCoeff<Eigen::PropagateNaN>();
+  }
+
+ private:
+  const LinearSystem& system_;
+  Eigen::MatrixXd sums_;  ///< (fields, rows) of |A|
+};
 
 /// Solves and corrects; the solution is empty where the pivots or the precision do not serve.
 template <class Real>
-LinearSolution solve_in_front(const LinearSystem& system, const NodeGraph& graph,
-                              std::span<const int> order, int most_corrections) {
+LinearSolution solve_in_front(const LinearSystem& system, const Residuals& residuals,
+                              const NodeGraph& graph, std::span<const int> order,
+                              int most_corrections) {
   constexpr double round_off = 1e-14;
   constexpr double largest_residual_kept = 1e-13;  // as umfpack keeps with pivots on the diagonal
   constexpr double least_gain = 0.25;              // of a correction that another one may follow
@@ -30,15 +57,14 @@ LinearSolution solve_in_front(const LinearSystem& system, const NodeGraph& graph
   solution.bytes = factor.bytes();
   solution.x = Eigen::VectorXd::Zero(system.rows());
   Eigen::VectorXd residual = system.right_hand_side;
-  double size = 1;
+  double size = residual.isZero(0) ? 0 : 1;
   for (int i = 0; i <= most_corrections && size > round_off; ++i) {
     const double unit = residual.lpNorm<Eigen::Infinity>();  // small numbers stay within range
-    if (!(unit > 0)) break;
     residual /= unit;
     factor.solve(residual.data(), residual.data());
     solution.x += unit * residual;
     const double before = size;
-    size = residual_of(system, solution.x, residual);
+    size = residuals.find(solution.x, residual);
     if (!(size < least_gain * before)) break;
   }
   if (size <= largest_residual_kept) return solution;
@@ -52,9 +78,11 @@ LinearSolution solve_in_fronts(const LinearSystem& system) {
   const NodeGraph graph = node_graph(view_of(system), system.fields);
   if (graph.offsets.empty()) return {};
   const std::vector<int> order = front_order(graph);
-  LinearSolution solution = solve_in_front<float>(system, graph, order, most_corrections_of_single);
+  const Residuals residuals(system);
+  LinearSolution solution =
+      solve_in_front<float>(system, residuals, graph, order, most_corrections_of_single);
   if (solution.x.size() > 0) return solution;
-  return solve_in_front<double>(system, graph, order, most_corrections);
+  return solve_in_front<double>(system, residuals, graph, order, most_corrections);
 }
 
 LinearSolution solve_frontal(const LinearSystem& system) {
@@ -71,9 +99,9 @@ LinearSolution solve_frontal(const LinearSystem& system) {
 
 /// Direct factorisation in a dense front that sweeps over the nodes in Sloan's order; pivots among
 /// a few nodes at a time. Factors are of single precision, corrected by residuals of double
-/// precision to a residual of 1e-14; where that stalls (conditions beyond some 1e6) of double
-/// precision, and UMFPACK's when that leaves more than 1e-13. Source: Irons 1970; Sloan 1986;
-/// Wilkinson 1963 (iterative refinement).
+/// precision to a residual of 1e-14 in every row; where that stalls (conditions beyond some 1e6) of
+/// double precision, and UMFPACK's when that leaves more than 1e-13. Source: Irons 1970; Sloan
+/// 1986; Wilkinson 1963 (iterative refinement).
 SolverEntry solver_frontal() {
   return {{"frontal",
            "dense front sweeping over the nodes: plane problems of up to some thousand nodes with "
