@@ -49,6 +49,13 @@ class Tables(StudyTest):
                 stages = sum(float(row[t]) for t in TIMES if t.startswith("t_") and t != "t_total")
                 self.assertAlmostEqual(float(row["t_total"]), stages)
 
+    def test_timing_says_what_solved_a_system(self):
+        result = run("timing", "--problem", "poisson_square", "--levels", "9", "--algorithms", "none",
+                     "--solver", "auto", "--csv", "-")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        named = {row["quantity"]: row["solved_by"] for row in rows_of(result.stdout)}
+        self.assertEqual(named, {"voronoi": "", "voronoi_share": "", "total": "", "iterations": "frontal"})
+
     def test_specs_with_commas_are_quoted_and_can_be_pasted_back(self):
         spec = "zoned[interior=gfdm,boundary=rbf_fd]"
         stencil = "zoned[interior=nearest[k=11],boundary=nearest[k=17]]"

@@ -12,6 +12,7 @@
 #include "methods/core/error.hpp"
 #include "methods/core/parallel_errors.hpp"
 #include "methods/core/rule.hpp"
+#include "methods/core/spans.hpp"
 
 namespace strongpoint {
 namespace {
@@ -162,6 +163,7 @@ typename GlobalInterpolation<Dim>::Whole GlobalInterpolation<Dim>::gather(
 template <int Dim>
 Weights GlobalInterpolation<Dim>::weights(const Sites<Dim>& sites, const Stencils& /*stencils*/,
                                           const Derivatives<Dim>& derivatives) const {
+  refuse_spans<Dim>(sites, name_);
   const Whole whole = gather(sites);
   const LocalStencil<Dim>& stencil = whole.stencil;
   const Eigen::MatrixXd matrix = kernel_.local_matrix(stencil, Scaling::both);

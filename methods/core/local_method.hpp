@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <concepts>
-#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -15,6 +14,7 @@
 #include "methods/core/local_stencil.hpp"
 #include "methods/core/method.hpp"
 #include "methods/core/parallel_errors.hpp"
+#include "methods/core/spans.hpp"
 #include "methods/core/stencil_batch.hpp"
 #include "methods/core/stencil_weights.hpp"
 
@@ -146,6 +146,7 @@ const {
   LocalOutcome outcome = local.gather(sites, stencils[anchor], anchor);
   if (outcome == LocalOutcome::ok) outcome = kernel_.factorise(local, work);
   if (outcome != LocalOutcome::ok) return outcome;
+  Eigen::MatrixXd at_one_end;  // of as many numbers at each point
   for (int p : points) {
     const Point<Dim> offset = (sites.points.col(p) - sites.anchors.col(anchor)) / local.radius;
     Eigen::Map<Eigen::MatrixXd> row = weights.row(p);
@@ -154,7 +155,7 @@ const {
     } else {
       const Point<Dim> span = sites.spans.col(p) / local.radius;
       outcome = evaluate(local, work, offset - span, derivatives, row);
-      const Eigen::MatrixXd at_one_end = row;
+      at_one_end = row;
       if (outcome == LocalOutcome::ok) {
         outcome = evaluate(local, work, offset + span, derivatives, row);
       }
@@ -174,9 +175,7 @@ requires LocalKernel<Kernel, Dim> Weights LocalMethod<Dim, Kernel>::weights(
     const Sites<Dim>& sites, const Stencils& stencils, const Derivatives<Dim>& derivatives)
 const {
   check_needs(sites);
-  if (sites.spans.cols() > 0 && !reads_spans()) {
-    throw std::logic_error(traits_.name + " reads no spans of points; call weights_on");
-  }
+  if (!reads_spans()) refuse_spans<Dim>(sites, traits_.name);
   Weights weights = weights_on_stencils(sites, stencils, derivatives.size());
   const Stencils points = points_by_anchor(sites);
   const std::vector<int> anchors = stencils.occupied();

@@ -63,6 +63,7 @@ Weights weights_on(const Method<Dim>& method, const Sites<Dim>& sites, const Ste
   }
   means.values.resize(means.columns.size() * means.per_entry);
   std::fill(means.values.begin(), means.values.end(), 0.0);
+#pragma omp parallel for schedule(static)
   for (int p = 0; p < sites.point_count(); ++p) {
     for (const int end : {2 * p, 2 * p + 1}) add_half(ends, end, p, means);
   }

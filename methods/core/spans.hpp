@@ -1,5 +1,8 @@
 #pragma once
 
+#include <stdexcept>
+#include <string>
+
 #include "methods/core/method.hpp"
 
 namespace strongpoint {
@@ -9,5 +12,12 @@ namespace strongpoint {
 template <int Dim>
 Weights weights_on(const Method<Dim>& method, const Sites<Dim>& sites, const Stencils& stencils,
                    const Derivatives<Dim>& derivatives);
+
+/// Throws std::logic_error, naming the method, when points have spans, which it does not read.
+template <int Dim>
+void refuse_spans(const Sites<Dim>& sites, const std::string& method) {
+  if (sites.spans.cols() == 0) return;
+  throw std::logic_error(method + " reads no spans of points; call weights_on");
+}
 
 }  // namespace strongpoint

@@ -23,7 +23,7 @@ struct LinearSystem {
   int fields = 1;                       ///< unknown = node * fields + field
   std::int64_t width = 0;               ///< number of unknowns; 0: as many as rows
   int dimension = 0;                    ///< of the space the nodes lie in; 0: not known
-  Eigen::MatrixXd places;               ///< (dimension, nodes) where they lie; empty: not known
+  Eigen::MatrixXd places;               ///< (dimension, nodes) of displacements; else empty
   std::vector<int> order;  ///< (nodes) in which incomplete factors eliminate them; empty: as is
 
   std::int64_t rows() const { return static_cast<std::int64_t>(offsets.size()) - 1; }

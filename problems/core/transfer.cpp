@@ -149,7 +149,7 @@ Transfer<Size, 3> rigid(Aggregates aggregates, PlaneBodies& bodies, const Weight
     const Eigen::Matrix<float, 3, Size> sums = block.transpose() * weight(node).asDiagonal();
     append(transfer.up, sums);
   }
-  transfer.aggregates = std::move(aggregates);
+  transfer.aggregates = aggregates;
   bodies = coarse;
   return transfer;
 }
@@ -196,15 +196,15 @@ Transfer<Size, Size> constant_transfer(const BlockMatrix<Size>& matrix,
   return transfer;
 }
 
-Transfer<2, 3> rigid_transfer(Aggregates aggregates, PlaneBodies& bodies,
+Transfer<2, 3> rigid_transfer(const Aggregates& aggregates, PlaneBodies& bodies,
                               const Eigen::VectorXd& weights) {
-  return rigid<2>(std::move(aggregates), bodies, [&](int node) -> Eigen::Vector2f {
+  return rigid<2>(aggregates, bodies, [&](int node) -> Eigen::Vector2f {
     return weights.segment<2>(2 * static_cast<Eigen::Index>(node)).cast<float>();
   });
 }
 
-Transfer<3, 3> rigid_transfer(Aggregates aggregates, PlaneBodies& bodies) {
-  return rigid<3>(std::move(aggregates), bodies,
+Transfer<3, 3> rigid_transfer(const Aggregates& aggregates, PlaneBodies& bodies) {
+  return rigid<3>(aggregates, bodies,
                   [](int) -> Eigen::Vector3f { return Eigen::Vector3f::Ones(); });
 }
 
@@ -218,9 +218,11 @@ CoarseLevel<Size, Coarse> coarsen(const BlockMatrix<Size>& matrix,
   RowSum<Coarse, Coarse> sum(transfer.aggregates.count);
   for (int row = 0; row < transfer.aggregates.count; ++row) {
     sum.add(row, Block<Coarse>::Zero());
+    Eigen::Matrix<double, Coarse, 1> followers = Eigen::Matrix<double, Coarse, 1>::Zero();
     for (int m = members.offsets[row]; m < members.offsets[row + 1]; ++m) {
       const int node = members.nodes[m];
       const Block<Coarse, Size> up = widened<Coarse, Size>(transfer.up, node);
+      followers += up.cwiseAbs().rowwise().sum();
       for (std::int64_t i = offsets[node]; i < offsets[node + 1]; ++i) {
         const Eigen::Map<const Block<Size, Coarse>> block(product.data() + i * Size * Coarse);
         sum.add(level.fine_to_coarse.columns[i], up.lazyProduct(block));
@@ -228,7 +230,7 @@ CoarseLevel<Size, Coarse> coarsen(const BlockMatrix<Size>& matrix,
     }
     sum.drain([&](int column, Block<Coarse>& block) {
       for (int i = 0; column == row && i < Coarse; ++i) {
-        if (block(i, i) == 0) block(i, i) = 1;
+        if (followers[i] == 0) block(i, i) = 1;
       }
       level.matrix.columns.push_back(column);
       level.matrix.values.insert(level.matrix.values.end(), block.data(),

@@ -36,11 +36,11 @@ struct PlaneBodies {
 
 /// Nodes follow their aggregates as rigid bodies. Forces and moments are summed, after a product
 /// with `weights`, (nodes * 2), that make forces of rows. Replaces `bodies` by the aggregates.
-Transfer<2, 3> rigid_transfer(Aggregates aggregates, PlaneBodies& bodies,
+Transfer<2, 3> rigid_transfer(const Aggregates& aggregates, PlaneBodies& bodies,
                               const Eigen::VectorXd& weights);
 
 /// The same for bodies that turn, whose rows are forces and moments.
-Transfer<3, 3> rigid_transfer(Aggregates aggregates, PlaneBodies& bodies);
+Transfer<3, 3> rigid_transfer(const Aggregates& aggregates, PlaneBodies& bodies);
 
 /// The Galerkin product and what a cycle needs of it. An unknown that no node follows stands for
 /// itself, with a 1 on the diagonal.

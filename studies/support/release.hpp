@@ -4,7 +4,7 @@
 #include <span>
 
 #include "problems/core/problem.hpp"
-#include "studies/support/run_case.hpp"
+#include "studies/support/discretise.hpp"
 
 namespace strongpoint {
 

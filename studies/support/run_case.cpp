@@ -1,6 +1,7 @@
 #include "studies/support/run_case.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "problems/core/assembly.hpp"
 #include "studies/support/case_map.hpp"
@@ -38,6 +39,14 @@ Eigen::MatrixXd places_of_unknowns(const Discretisation<Dim>& scene) {
   return places;
 }
 
+/// Whether the fields are the components of a vector, in their order, and no others.
+template <int Dim>
+bool are_displacements(const Discretisation<Dim>& scene) {
+  std::vector<int> axes(Dim);
+  std::iota(axes.begin(), axes.end(), 0);
+  return scene.unknowns.field_axis == axes;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -65,8 +74,9 @@ CaseResult solve_steady(const SteadyProblem<Dim>& problem, const CaseKey& key,
   system.dimension = Dim;
   if (is_iterative(key.solver)) {
     clock.time(times.solve, [&] {
-      system.places = places_of_unknowns(scene);
-      system.order = order_along(system.places.row(0).transpose());
+      Eigen::MatrixXd places = places_of_unknowns(scene);
+      system.order = order_along(places.row(0).transpose());
+      if (are_displacements(scene)) system.places = std::move(places);
     });
   }
   if (!options.vtk) clock.time(times.solve, [&] { release_unread(problem, scene); });
