@@ -5,6 +5,7 @@ Usage: test_work_studies.py [BUILD_DIRECTORY]; without it the variable STRONGPOI
 """
 import csv
 import io
+import math
 import unittest
 
 from study_programs import CONTRACT, TIMES, StudyTest, rows_of, run
@@ -38,6 +39,15 @@ class WorkPrecision(StudyTest):
         self.assertEqual(best[-1], "-")
 
 
+def slope(rows, quantity):
+    """Least-squares slope of the logarithm of a quantity over that of the number of nodes."""
+    points = [(math.log(int(row["nodes"])), math.log(float(row["value"])))
+              for row in rows if row["quantity"] == quantity]
+    middle = [sum(values) / len(points) for values in zip(*points)]
+    return (sum((x - middle[0]) * (y - middle[1]) for x, y in points)
+            / sum((x - middle[0]) ** 2 for x, _ in points))
+
+
 class Scaling(StudyTest):
     def test_each_stage_has_a_row_with_its_share_per_node_and_its_exponent(self):
         result = run("scaling", "--levels", "20,40,80", "--csv", "-")
@@ -50,8 +60,8 @@ class Scaling(StudyTest):
             if row["quantity"] == "total":
                 per_node = 1e6 * float(row["value"]) / int(row["nodes"])
                 self.assertAlmostEqual(float(row["per_node"]) / per_node, 1, places=3)
-            if row["quantity"] == "weights":
-                self.assertTrue(0.5 < float(row["exponent"]) < 1.5, row)
+            if row["quantity"] == "weights":  # what the slope is depends on what else the machine does
+                self.assertAlmostEqual(float(row["exponent"]), slope(rows, "weights"), delta=2e-3)
 
     def test_stages_after_the_last_one_are_not_run(self):
         rows = rows_of(run("scaling", "--levels", "20", "--upto", "weights", "--csv", "-").stdout)
