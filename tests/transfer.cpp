@@ -80,7 +80,10 @@ TEST(BalanceWeights, AreAreasInsideAndLengthsOfTheOtherSignOnSides) {
 TEST(RigidTransfer, FollowsEveryRigidMotionOverTwoLevelsAndSumsForcesAndMoments) {
   const int nodes = 12;
   PlaneBodies bodies{Eigen::Matrix2Xd(2, nodes), Eigen::VectorXd::Zero(nodes)};
-  for (int i = 0; i < nodes; ++i) bodies.places.col(i) << 0.3 * (i % 4), 0.2 * (i / 4) + 0.01 * i;
+  for (int i = 0; i < nodes; ++i) {
+    const int row = i / 4;
+    bodies.places.col(i) << 0.3 * (i - 4 * row), 0.2 * row + 0.01 * i;
+  }
   const PlaneBodies fine = bodies;
   const Aggregates first{{0, 0, 1, 1, 0, 0, 1, 1, 2, 2, 3, 3}, 4};
   const Eigen::VectorXd weights = Eigen::VectorXd::LinSpaced(2 * nodes, 1, 2);
