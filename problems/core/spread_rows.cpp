@@ -9,52 +9,22 @@
 namespace strongpoint {
 namespace {
 
-/// sums(j, f) += the derivatives of node j times the coefficients of field f.
-template <int Fields, int Derivatives>
-void add_weighted(const double* weights, std::size_t nodes, const double* coefficients,
-                  double* sums) {
-  double known[Fields * Derivatives];
-  std::copy_n(coefficients, Fields * Derivatives, known);
-  for (std::size_t j = 0; j < nodes; ++j) {
-    for (int f = 0; f < Fields; ++f) {
-      double sum = sums[j * Fields + f];
-      for (int d = 0; d < Derivatives; ++d) {
-        sum += known[f * Derivatives + d] * weights[j * Derivatives + d];
-      }
-      sums[j * Fields + f] = sum;
-    }
-  }
-}
-
-/// The same for any numbers of fields and derivatives.
-void add_all_weighted(int fields, int derivatives, const double* weights, std::size_t nodes,
-                      const double* coefficients, double* sums) {
-  if (fields == 2 && derivatives == 2) {
-    return add_weighted<2, 2>(weights, nodes, coefficients, sums);
-  }
-  if (fields == 1 && derivatives == 2) {
-    return add_weighted<1, 2>(weights, nodes, coefficients, sums);
-  }
-  if (fields == 3 && derivatives == 3) {
-    return add_weighted<3, 3>(weights, nodes, coefficients, sums);
-  }
-  for (std::size_t j = 0; j < nodes; ++j) {
-    for (int f = 0; f < fields; ++f) {
-      for (int d = 0; d < derivatives; ++d) {
-        sums[j * fields + f] += coefficients[f * derivatives + d] * weights[j * derivatives + d];
-      }
-    }
-  }
-}
+/// Places of values one after the other.
+struct InOrder {
+  std::size_t count;
+  std::size_t size() const { return count; }
+  std::size_t operator[](std::size_t j) const { return j; }
+};
 
 /// values(p_j, f) += the derivatives of node j times the coefficients of field f, p_j being its
 /// place.
-template <int Fields, int Derivatives>
-void add_weighted_at(const double* weights, std::span<const int> places, const double* coefficients,
-                     double* values) {
+template <int Fields, int Derivatives, class Places>
+void add_weighted(const double* weights, Places places, const double* coefficients,
+                  double* values) {
   double known[Fields * Derivatives];
   std::copy_n(coefficients, Fields * Derivatives, known);
-  for (const int place : places) {
+  for (std::size_t j = 0; j < places.size(); ++j) {
+    const auto place = static_cast<std::size_t>(places[j]);
     for (int f = 0; f < Fields; ++f) {
       double sum = values[place * Fields + f];
       for (int d = 0; d < Derivatives; ++d) sum += known[f * Derivatives + d] * weights[d];
@@ -65,18 +35,20 @@ void add_weighted_at(const double* weights, std::span<const int> places, const d
 }
 
 /// The same for any numbers of fields and derivatives.
-void add_all_weighted_at(int fields, int derivatives, const double* weights,
-                         std::span<const int> places, const double* coefficients, double* values) {
+template <class Places>
+void add_all_weighted(int fields, int derivatives, const double* weights, Places places,
+                      const double* coefficients, double* values) {
   if (fields == 2 && derivatives == 2) {
-    return add_weighted_at<2, 2>(weights, places, coefficients, values);
+    return add_weighted<2, 2>(weights, places, coefficients, values);
   }
   if (fields == 1 && derivatives == 2) {
-    return add_weighted_at<1, 2>(weights, places, coefficients, values);
+    return add_weighted<1, 2>(weights, places, coefficients, values);
   }
   if (fields == 3 && derivatives == 3) {
-    return add_weighted_at<3, 3>(weights, places, coefficients, values);
+    return add_weighted<3, 3>(weights, places, coefficients, values);
   }
-  for (const int place : places) {
+  for (std::size_t j = 0; j < places.size(); ++j) {
+    const auto place = static_cast<std::size_t>(places[j]);
     for (int f = 0; f < fields; ++f) {
       for (int d = 0; d < derivatives; ++d) {
         values[place * fields + f] += coefficients[f * derivatives + d] * weights[d];
@@ -209,9 +181,9 @@ void SpreadRowMaker::add_nodes(const Term* terms) {
     for (std::size_t t = reading.begin; t < reading.end; ++t) {
       coefficients_[terms[t].field * derivatives + terms[t].derivative] += terms[t].coefficient;
     }
-    add_all_weighted_at(fields, derivatives,
-                        weights.values.data() + weights.offsets[reading.point] * derivatives,
-                        {places, nodes}, coefficients_.data(), values_.data());
+    add_all_weighted(fields, derivatives,
+                     weights.values.data() + weights.offsets[reading.point] * derivatives,
+                     std::span<const int>(places, nodes), coefficients_.data(), values_.data());
     const bool is_last = r + 1 == readings_.size() || readings_[r + 1].group != reading.group;
     if (is_last) places += nodes;
   }
@@ -253,7 +225,7 @@ void SpreadRowMaker::add_group(std::size_t group, std::span<const Reading> readi
     }
     add_all_weighted(fields, derivatives,
                      weights.values.data() + weights.offsets[reading.point] * derivatives,
-                     nodes.size(), coefficients_.data(), group_sums_.data());
+                     InOrder{nodes.size()}, coefficients_.data(), group_sums_.data());
   }
   for (int f = 0; f < fields; ++f) {
     if ((groups_[group].fields >> f & 1U) == 0) continue;
