@@ -82,8 +82,10 @@ TEST(TaylorBatch, MatchesFitsMadeOneByOneOnEveryPath) {
     for (int order = 1; order <= 3; ++order) {
       matches_one_by_one<3>(fmt::format("lsfdm[order={}]", order), order, cloud);
     }
-    matches_one_by_one<2>("gfdm", 2, cloud);
-    matches_one_by_one<2>("gfdm[weight=volume]", 2, cloud);
+    for (const char* weight : {"volume", "cubic_spline", "quartic_spline", "inverse_cube", "power",
+                               "power[p=3]", "power[p=2.5]"}) {
+      matches_one_by_one<2>(fmt::format("gfdm[weight={}]", weight), 2, cloud);
+    }
   }
 }
 

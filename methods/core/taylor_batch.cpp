@@ -2,16 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstdint>
 
 #include "methods/core/simd/taylor_condition.hpp"
 
 namespace strongpoint {
 namespace {
-
-/// Numbers of gathered stencils that are weighed at a time: they stay near, and what a call of a
-/// kernel costs is shared by many.
-constexpr std::size_t gathered_at_a_time = 12288;
 
 /// Asks for the ids of stencils that come soon, past the end of which nothing happens.
 inline void fetch_ahead(const int* ids) {
@@ -25,6 +21,18 @@ void grow_to(std::vector<Number>& numbers, std::size_t size) {
 }
 void grow_to(LaneArray& numbers, std::size_t size) {
   if (numbers.size() < size) numbers.resize(size);
+}
+
+/// A weight function as kernels take it.
+NodeWeights weights_of(const WeightFunction& weight, const double* volumes) {
+  if (weight.is_one()) return {};
+  if (weight.uses_volumes()) return {.volumes = volumes};
+  if (weight.formula() != nullptr) return {.formula = weight.formula()};
+  const auto squared = [](const void* function, const double* rho, double* result, long count) {
+    const auto size = static_cast<std::size_t>(count);
+    static_cast<const WeightFunction*>(function)->squared({rho, size}, {result, size});
+  };
+  return {.squared = squared, .function = &weight};
 }
 
 }  // namespace
@@ -52,19 +60,17 @@ void TaylorBatch<Dim>::sort_by_size(const Sites<Dim>& sites, std::span<const int
 
 template <int Dim>
 template <class Treat>
-void TaylorBatch<Dim>::each_part(std::size_t numbers, Treat treat) {
+void TaylorBatch<Dim>::each_part(Treat treat) {
   const std::size_t lanes = lanes_of(simd_path());
   const std::size_t count = by_size_.size();
   for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
     const int size = by_size_[std::min(begin + lanes, count) - 1].first;
-    const std::size_t most = std::max<std::size_t>(1, numbers / (lanes * size * (Dim + 2)));
-    end = begin;
-    for (std::size_t group = 0; group < most && end < count; ++group) {
+    for (end = begin; end < count;) {
       const std::size_t next = std::min(end + lanes, count);
       if (by_size_[next - 1].first != size) break;
       end = next;
     }
-    treat(std::span<const Sized>(by_size_.data() + begin, end - begin));
+    treat(std::span<const Sized>(by_size_.data() + begin, end - begin), size);
   }
 }
 
@@ -97,62 +103,24 @@ void TaylorBatch<Dim>::tabulate(const MonomialBasis<Dim>& basis,
 }
 
 template <int Dim>
-GatherTask TaylorBatch<Dim>::prepare(const StencilTable& table, std::size_t room,
-                                     const WeightFunction& weight) {
+TaylorStencils TaylorBatch<Dim>::prepare(const TaylorParts<Dim>& fit, const Sites<Dim>& sites,
+                                         const double* anchors, const std::int64_t* offsets,
+                                         const int* ids, int size) {
   const std::size_t lanes = lanes_of(simd_path());
-  const std::size_t groups = (table.count + lanes - 1) / lanes;
-  grow_to(z_, room * lanes * table.size * Dim);
-  grow_to(rho_, room * lanes * table.size);
-  grow_to(radius_, groups * lanes);
-  grow_to(faulty_, groups);
-  grow_to(done_, groups);
-  return {table,
+  grow_to(z_, lanes * size * Dim);
+  grow_to(rho_, lanes * size);
+  grow_to(squared_, lanes * size);
+  grow_to(done_, (chosen_.size() + lanes - 1) / lanes);
+  return {{sites.nodes.data(), anchors, offsets, ids, chosen_.data(),
+           static_cast<int>(chosen_.size()), size},
           Dim,
-          weight.uses_volumes() || weight.is_one() ? Distances::squares : Distances::roots,
+          fit.basis.degree(),
+          fit.limits.least_pivot,
+          fit.limits.condition,
+          weights_of(fit.weight, sites.volumes.data()),
           z_.data(),
           rho_.data(),
-          radius_.data(),
-          faulty_.data()};
-}
-
-template <int Dim>
-GatherTask TaylorBatch<Dim>::gather(const Sites<Dim>& sites, const StencilTable& table,
-                                    const WeightFunction& weight) {
-  const std::size_t lanes = lanes_of(simd_path());
-  const std::size_t size = table.size;
-  const std::size_t groups = (table.count + lanes - 1) / lanes;
-  const GatherTask task = prepare(table, groups, weight);
-  gather_stencils(task);
-  if (weight.is_one()) return task;
-  for (std::size_t group = 0; group < groups; ++group) {  // the centre's distance does not count
-    double* const centre = rho_.data() + group * lanes * size;
-    std::fill(centre, centre + lanes, 1.0);
-  }
-  grow_to(squared_, groups * lanes * size);
-  weigh(sites, task, weight);
-  return task;
-}
-
-template <int Dim>
-void TaylorBatch<Dim>::weigh(const Sites<Dim>& sites, const GatherTask& task,
-                             const WeightFunction& weight) {
-  const std::size_t lanes = lanes_of(simd_path());
-  const StencilTable& table = task.table;
-  const std::size_t size = table.size;
-  const std::size_t count = (chosen_.size() + lanes - 1) / lanes * lanes * size;
-  if (!weight.uses_volumes()) {
-    weight.squared({rho_.data(), count}, {squared_.data(), count});
-    return;
-  }
-  std::fill_n(squared_.begin(), count, 0.0);
-  for (std::size_t i = 0; i < chosen_.size(); ++i) {
-    const double unit = std::pow(radius_[i], -Dim);
-    double* next = squared_.data() + i / lanes * lanes * size + i % lanes;
-    for (std::int64_t e = table.offsets[chosen_[i]]; e < table.offsets[chosen_[i] + 1]; ++e) {
-      *next = sites.volumes[table.ids[e]] * unit;
-      next += lanes;
-    }
-  }
+          squared_.data()};
 }
 
 template <int Dim>
@@ -163,43 +131,28 @@ void TaylorBatch<Dim>::fill(const TaylorParts<Dim>& fit, const StencilBatch<Dim>
   stencil_of_place_.assign(batch.anchors.begin(), batch.anchors.end());
   sort_by_size(batch.sites, batch.anchors, batch.stencils, terms + 1);
   tabulate(fit.basis, batch.derivatives);
-  // Without weights a kernel gathers each group when it comes to it.
-  const bool weighs = !fit.weight.is_one();
-  each_part(
-      weighs ? gathered_at_a_time : std::numeric_limits<std::size_t>::max(),
-      [&](std::span<const Sized> part) {
-        const int size = part.back().first;
-        chosen_.resize(part.size());
-        for (std::size_t i = 0; i < part.size(); ++i) chosen_[i] = batch.anchors[part[i].second];
-        grow_to(scratch_, taylor_scratch(size, terms, batch.derivatives.size(), lanes));
-        const StencilTable table{batch.sites.nodes.data(),
-                                 batch.sites.anchors.data(),
-                                 batch.stencils.offsets.data(),
-                                 batch.stencils.nodes.data(),
-                                 chosen_.data(),
-                                 static_cast<int>(chosen_.size()),
-                                 size};
-        fit_taylor({weighs ? gather(batch.sites, table, fit.weight) : prepare(table, 1, fit.weight),
-                    fit.basis.degree(),
-                    fit.limits.least_pivot,
-                    fit.limits.condition,
-                    weighs ? squared_.data() : nullptr,
-                    {batch.derivatives.size(), orders_.data(), factors_.data(), powers_.data(),
-                     own_.data()},
-                    {batch.sites.points.data(), batch.points.offsets.data(),
-                     batch.points.nodes.data(), weights.offsets.data(), weights.values.data()},
-                    weights.values.size() >= least_streamed ? Output::streamed : Output::cached,
-                    scratch_.data(),
-                    done_.data()});
-        for (std::size_t i = 0; i < part.size(); i += lanes) {
-          const unsigned done = done_[i / lanes];
-          const std::size_t end = std::min(i + lanes, part.size());
-          for (std::size_t j = i; j < end; ++j) {
-            LocalOutcome& outcome = outcomes[part[j].second];
-            outcome = (done >> (j - i) & 1U) != 0 ? LocalOutcome::ok : outcome;
-          }
-        }
-      });
+  each_part([&](std::span<const Sized> part, int size) {
+    chosen_.resize(part.size());
+    for (std::size_t i = 0; i < part.size(); ++i) chosen_[i] = batch.anchors[part[i].second];
+    grow_to(scratch_, taylor_scratch(size, terms, batch.derivatives.size(), lanes));
+    fit_taylor(
+        {prepare(fit, batch.sites, batch.sites.anchors.data(), batch.stencils.offsets.data(),
+                 batch.stencils.nodes.data(), size),
+         {batch.derivatives.size(), orders_.data(), factors_.data(), powers_.data(), own_.data()},
+         {batch.sites.points.data(), batch.points.offsets.data(), batch.points.nodes.data(),
+          weights.offsets.data(), weights.values.data()},
+         weights.values.size() >= least_streamed ? Output::streamed : Output::cached,
+         scratch_.data(),
+         done_.data()});
+    for (std::size_t i = 0; i < part.size(); i += lanes) {
+      const unsigned done = done_[i / lanes];
+      const std::size_t end = std::min(i + lanes, part.size());
+      for (std::size_t j = i; j < end; ++j) {
+        LocalOutcome& outcome = outcomes[part[j].second];
+        outcome = (done >> (j - i) & 1U) != 0 ? LocalOutcome::ok : outcome;
+      }
+    }
+  });
 }
 
 template <int Dim>
@@ -223,22 +176,15 @@ void TaylorBatch<Dim>::judge(const TaylorParts<Dim>& fit, const Sites<Dim>& site
   }
   derivatives_ = {};
   sort_by_size(sites, anchors, stencils, terms + 1);
-  each_part(gathered_at_a_time, [&](std::span<const Sized> part) {
-    const int size = part.back().first;
+  each_part([&](std::span<const Sized> part, int size) {
     chosen_.clear();
     for (const auto& [ignored, place] : part) chosen_.push_back(place);
     const std::size_t padded = (part.size() + lanes - 1) / lanes * lanes;
-    grow_to(scratch_, lanes * size);
     grow_to(one_, padded);
     grow_to(maximum_, padded);
-    judge_taylor(
-        {gather(sites,
-                {sites.nodes.data(), origins_.data(), stencils.offsets.data() + first,
-                 stencils.nodes.data(), chosen_.data(), static_cast<int>(chosen_.size()), size},
-                fit.weight),
-         fit.basis.degree(), fit.limits.least_pivot, fit.limits.condition,
-         fit.weight.is_one() ? nullptr : squared_.data(), factors_.data(), orders_.data(),
-         scratch_.data(), one_.data(), maximum_.data(), done_.data()});
+    judge_taylor({prepare(fit, sites, origins_.data(), stencils.offsets.data() + first,
+                          stencils.nodes.data(), size),
+                  factors_.data(), orders_.data(), one_.data(), maximum_.data(), done_.data()});
     for (std::size_t i = 0; i < part.size(); ++i) {
       if ((done_[i / lanes] >> (i % lanes) & 1U) == 0) continue;
       // |A|_2^2 <= |A|_1 |A|_max, and either is at most sqrt(m) |A|_2.

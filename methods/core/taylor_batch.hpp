@@ -25,7 +25,7 @@ struct TaylorLimits {
 template <int Dim>
 struct TaylorParts {
   const MonomialBasis<Dim>& basis;  ///< without the constant
-  const WeightFunction& weight;     ///< sees 1 for distances that do not count
+  const WeightFunction& weight;
   TaylorLimits limits;
 };
 
@@ -51,8 +51,8 @@ class TaylorBatch {
 
   std::vector<Sized> by_size_;
   std::vector<int> chosen_, stencil_of_place_;
-  LaneArray z_, rho_, squared_, radius_, scratch_, one_, maximum_;
-  std::vector<unsigned> faulty_, done_;
+  LaneArray z_, rho_, squared_, scratch_, one_, maximum_;
+  std::vector<unsigned> done_;
   std::vector<double> origins_;   ///< (Dim, places) anchors that are judged
   Derivatives<Dim> derivatives_;  ///< those that the next three belong to
   std::vector<int> orders_, powers_, own_;
@@ -60,18 +60,15 @@ class TaylorBatch {
 
   void sort_by_size(const Sites<Dim>& sites, std::span<const int> anchors, const Stencils& stencils,
                     int needed);
-  /// Calls treat(part) with parts of by_size_ that share a size, padded, and take at most so many
-  /// numbers when they are gathered, or are a group.
+  /// Calls treat(part) with parts of by_size_ that share a size, padded.
   template <class Treat>
-  void each_part(std::size_t numbers, Treat treat);
+  void each_part(Treat treat);
   void tabulate(const MonomialBasis<Dim>& basis, const Derivatives<Dim>& derivatives);
-  /// What kernels read and fill for the stencils of a table of `chosen_`, with room for the nodes
-  /// of some groups.
-  GatherTask prepare(const StencilTable& table, std::size_t room, const WeightFunction& weight);
-  /// Gathers the stencils and weighs their nodes.
-  GatherTask gather(const Sites<Dim>& sites, const StencilTable& table,
-                    const WeightFunction& weight);
-  void weigh(const Sites<Dim>& sites, const GatherTask& task, const WeightFunction& weight);
+  /// What kernels read of the stencils of `chosen_`, whose sizes are `size` at most, with room for
+  /// what they gather.
+  TaylorStencils prepare(const TaylorParts<Dim>& fit, const Sites<Dim>& sites,
+                         const double* anchors, const std::int64_t* offsets, const int* ids,
+                         int size);
 };
 
 extern template class TaylorBatch<1>;

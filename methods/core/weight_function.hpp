@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "methods/core/options.hpp"
+#include "methods/core/simd/weight_formula.hpp"
 
 namespace strongpoint {
 
@@ -23,8 +24,10 @@ class WeightFunction {
   virtual bool uses_volumes() const { return false; }
   /// True when T is 1 at every distance: it need not be asked for.
   virtual bool is_one() const { return false; }
+  /// The weight as kernels evaluate it themselves; null where they have to ask for `squared`.
+  virtual const WeightFormula* formula() const { return nullptr; }
   /// T^2 at the distances `rho` = r / R, in (0, 1], R being the stencil's largest distance. Called
-  /// once per stencil; never called for a weight that uses volumes.
+  /// once per stencil or group of stencils; never called for a weight that uses volumes.
   virtual void squared(std::span<const double> rho, std::span<double> result) const = 0;
 };
 
@@ -34,16 +37,11 @@ struct WeightEntry {
   std::shared_ptr<const WeightFunction> (*make)(const Options& options);
 };
 
-/// x^n, n >= 0, by multiplication: a tenth of the cost of std::pow.
-inline double whole_power(double x, int n) {
-  double result = 1;
-  for (double square = x; n > 0; n /= 2, square *= square) {
-    if (n % 2 != 0) result *= square;
-  }
-  return result;
-}
+/// A weight that kernels evaluate for many nodes at a time.
+std::shared_ptr<const WeightFunction> weight_of_formula(const WeightFormula& formula);
 
-/// Wraps `double f(double rho)`, which gives T^2, into a WeightFunction with a static loop.
+/// Wraps `double f(double rho)`, which gives T^2, into a WeightFunction with a static loop: for
+/// what no formula gives.
 template <class Function>
 std::shared_ptr<const WeightFunction> weight_of_distance(Function function) {
   class Wrapped final : public WeightFunction {

@@ -14,6 +14,7 @@ struct LaneStencils {
   Pack* z;              ///< (Dim, n) positions relative to the anchor over R, node after node
   Pack* rho;            ///< (n) distances over R, ascending; 1 for padding
   int anchors[lanes];   ///< the last one repeated where the group is not full
+  int least;            ///< nodes that every lane has
   unsigned coincident;  ///< bits of the lanes in which nodes are closer than 1e-10 R, or R is 0
 };
 
@@ -131,6 +132,7 @@ template <int Dim>
       nodes.least = nodes.counts[lane] < nodes.least ? nodes.counts[lane] : nodes.least;
     }
   }
+  group.least = nodes.least;
   // A load of what was stored in parts waits for all stores before it.
   group.size = nodes.least == table.size ? all(table.size) : load(count);
   load_nodes<Dim>(nodes.anchors, nodes.origin);

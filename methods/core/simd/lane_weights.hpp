@@ -1,35 +1,68 @@
 #pragma once
 
-#include "methods/core/simd/pack.hpp"
-#include "methods/core/simd/stencil_table.hpp"
+#include "methods/core/simd/lane_formula.hpp"
+#include "methods/core/simd/lane_gather.hpp"
+#include "methods/core/simd/taylor_stencils.hpp"
 
 namespace strongpoint::STRONGPOINT_SIMD_PATH {
 
-/// The weights from a row on; null, which stands for ones, stays null.
-inline const Pack* squares_of(const double* squared, long row) {
-  return squared == nullptr ? nullptr : reinterpret_cast<const Pack*>(squared) + row;
+/// Fills `to` with the measures of a group's nodes in units of R^Dim.
+template <int Dim>
+void weigh_by_volume(const StencilTable& table, const double* volumes, const LaneStencils& group,
+                     Pack* to) {
+  const int* ids[lanes];
+  long last[lanes];
+  for (int lane = 0; lane < lanes; ++lane) {
+    const std::int64_t* const offsets = table.offsets + group.anchors[lane];
+    ids[lane] = table.ids + offsets[0];
+    last[lane] = offsets[1] - offsets[0] - 1;
+  }
+  Pack unit = all(1) / group.radius;
+  for (int c = 1; c < Dim; ++c) unit = unit / group.radius;
+  for (int j = 1; j < table.size; ++j) {
+    const double* node[lanes];
+    for (int lane = 0; lane < lanes; ++lane) {
+      node[lane] = volumes + ids[lane][j < last[lane] ? j : last[lane]];
+    }
+    load_nodes<1>(node, to + j);
+    to[j] = to[j] * unit;
+  }
 }
 
-/// Copies weights of a group's nodes; they become zero at the centre, which comes first, and in
-/// padding. Returns `to`, or null where `from` is null: the weights are ones, which may stay in
-/// padding, where monomials vanish.
-inline const Pack* mask_weights(const StencilTable& table, int first, const Pack* from, Pack* to) {
-  if (from == nullptr) return nullptr;
-  double size[lanes];
-  int least = table.size;
-  for (int lane = 0; lane < lanes; ++lane) {
-    const int place = first + lane < table.count ? first + lane : table.count - 1;
-    const std::int64_t* const offsets = table.offsets + table.chosen[place];
-    const int count = static_cast<int>(offsets[1] - offsets[0]);
-    size[lane] = count;
-    least = count < least ? count : least;
+/// Fills `to` with the weights of a group's nodes, the squares of whose distances are in
+/// `group.rho` and may be lost: zero at the centre, which comes first, and in padding. Returns
+/// `to`, or null for ones, which may stay in padding, where monomials vanish.
+template <int Dim>
+const Pack* weigh_nodes(const StencilTable& table, const NodeWeights& weights,
+                        const LaneStencils& group, Pack* to) {
+  const int size = table.size;
+  if (weights.formula != nullptr) {
+    const LaneFormula formula(*weights.formula);
+    for (int j = 1; j < size; ++j) to[j] = formula.at_square(group.rho[j]);
+  } else if (weights.volumes != nullptr) {
+    weigh_by_volume<Dim>(table, weights.volumes, group, to);
+  } else if (weights.squared != nullptr) {
+    group.rho[0] = all(1);
+    for (int j = 1; j < size; ++j) group.rho[j] = sqrt(group.rho[j]);
+    weights.squared(weights.function, reinterpret_cast<const double*>(group.rho),
+                    reinterpret_cast<double*>(to), static_cast<long>(size) * lanes);
+  } else {
+    return nullptr;
   }
   to[0] = all(0);
-  for (int j = 1; j < least; ++j) to[j] = from[j];
-  for (int j = least; j < table.size; ++j) {
-    to[j] = choose(less(all(j), load(size)), from[j], all(0));
-  }
+  for (int j = group.least; j < size; ++j) to[j] = choose(less(all(j), group.size), to[j], all(0));
   return to;
+}
+
+/// Gathers the stencils of anchors `first` and following as `gather_squares` does and weighs their
+/// nodes as `weigh_nodes` does.
+template <int Dim>
+const Pack* gather_weighed(const TaylorStencils& stencils, int first, LaneStencils& group) {
+  group.z = reinterpret_cast<Pack*>(stencils.z);
+  group.rho = reinterpret_cast<Pack*>(stencils.rho);
+  gather_squares<Dim>(stencils.table, first, group);
+  return weigh_nodes<Dim>(stencils.table, stencils.weights, group,
+                          reinterpret_cast<Pack*>(stencils.squared));
 }
 
 }  // namespace strongpoint::STRONGPOINT_SIMD_PATH

@@ -32,29 +32,26 @@ Norms norms_of_scaled(const Pack* lower, const Pack* factors) {
 template <int Dim, int Order>
 unsigned judge_group(const TaylorConditionTask& task, int first) {
   constexpr int terms = monomials_up_to<Dim>(Order);
-  const StencilTable& table = task.gathered.table;
-  const long rows = first / lanes * static_cast<long>(table.size);
-  const Pack* const z = reinterpret_cast<const Pack*>(task.gathered.z) + rows * Dim;
+  const int size = task.stencils.table.size;
+  LaneStencils group;
+  const Pack* const weights = gather_weighed<Dim>(task.stencils, first, group);
   Pack moments[terms * (terms + 1) / 2];
   Pack inverse[terms * (terms + 1) / 2];
-  const Pack* const weights = mask_weights(table, first, squares_of(task.squared, rows),
-                                           reinterpret_cast<Pack*>(task.scratch));
   if (weights == nullptr) {
-    sum_moments<Dim, Order>(z, EqualWeights{}, table.size, moments);
+    sum_moments<Dim, Order>(group.z, EqualWeights{}, size, moments);
   } else {
-    sum_moments<Dim, Order>(z, weights, table.size, moments);
+    sum_moments<Dim, Order>(group.z, weights, size, moments);
   }
-  const Pack radius = load(task.gathered.radius + first);
   Pack factors[terms];
   Pack inverse_factors[terms];
   for (int a = 0; a < terms; ++a) {
     factors[a] = all(task.columns[a]);
-    for (int q = 0; q < task.powers[a]; ++q) factors[a] = factors[a] * radius;
+    for (int q = 0; q < task.powers[a]; ++q) factors[a] = factors[a] * group.radius;
     inverse_factors[a] = all(1) / factors[a];
   }
   const Pack plain = norm_of_symmetric<terms>(moments);
   const Norms norms = norms_of_scaled<terms>(moments, factors);
-  const unsigned good = factorise_ldlt<terms>(moments, task.least_pivot);
+  const unsigned good = factorise_ldlt<terms>(moments, task.stencils.least_pivot);
   InverseFactors<terms> factors_of_inverse;
   factors_of_inverse.take(moments);
   factors_of_inverse.multiply(inverse);
@@ -62,20 +59,20 @@ unsigned judge_group(const TaylorConditionTask& task, int first) {
   const Norms of_inverse = norms_of_scaled<terms>(inverse, inverse_factors);
   store(task.one + first, norms.one * of_inverse.maximum);
   store(task.maximum + first, norms.maximum * of_inverse.one);
-  return good & ~task.gathered.faulty[first / lanes] &
-         less(plain * norm_of_symmetric<terms>(inverse), all(task.limit));
+  return good & ~group.coincident &
+         less(plain * norm_of_symmetric<terms>(inverse), all(task.stencils.limit));
 }
 
 template <int Dim, int Order>
 void judge(const TaylorConditionTask& task) {
-  for (int first = 0; first < task.gathered.table.count; first += lanes) {
+  for (int first = 0; first < task.stencils.table.count; first += lanes) {
     task.done[first / lanes] = judge_group<Dim, Order>(task, first);
   }
 }
 
 template <int Dim>
 void judge_any_order(const TaylorConditionTask& task) {
-  switch (task.order) {
+  switch (task.stencils.order) {
     case 1:
       return judge<Dim, 1>(task);
     case 2:
@@ -90,7 +87,7 @@ void judge_any_order(const TaylorConditionTask& task) {
 }  // namespace
 
 void judge_taylor(const TaylorConditionTask& task) {
-  switch (task.gathered.dim) {
+  switch (task.stencils.dim) {
     case 1:
       return judge_any_order<1>(task);
     case 2:

@@ -28,27 +28,26 @@ class TaylorGroup {
 
   TaylorGroup(const TaylorTask& task, int first, Piece& waiting)
       : task_(task),
-        table_(task.gathered.table),
+        table_(task.stencils.table),
         waiting_(waiting),
         points_(table_, task.points, first),
         size_(table_.size),
         count_(task.derivatives.count),
         first_(first) {
-    const long place = first / lanes;
-    const long row = task.squared == nullptr ? 0 : place * size_;
-    z_ = reinterpret_cast<const Pack*>(task.gathered.z) + row * Dim;
-    radius_ = load(task.gathered.radius + first);
-    Pack* const room = reinterpret_cast<Pack*>(task.scratch);
-    rows_ = room + size_;
+    LaneStencils stencils;
+    w_ = gather_weighed<Dim>(task.stencils, first, stencils);
+    z_ = stencils.z;
+    radius_ = stencils.radius;
+    faulty_ = stencils.coincident;
+    rows_ = reinterpret_cast<Pack*>(task.scratch);
     piece_ = rows_ + static_cast<long>(size_) * count_;
     right_sides_ = piece_ + static_cast<long>(size_) * count_;
     solutions_ = right_sides_ + static_cast<long>(terms) * count_;
-    w_ = mask_weights(table_, first, squares_of(task.squared, row), room);
   }
 
   /// Bits of the lanes whose weights were written.
   unsigned run() {
-    unsigned good = factorise() & ~task_.gathered.faulty[first_ / lanes];
+    unsigned good = factorise() & ~faulty_;
     for (int lane = table_.count - first_; lane < lanes; ++lane) good &= ~(1U << lane);
     if (good == 0) return 0;
     scale_orders();
@@ -77,6 +76,7 @@ class TaylorGroup {
   int size_;
   int count_;  ///< D
   int first_;
+  unsigned faulty_;        ///< lanes with coincident nodes
   unsigned delicate_ = 0;  ///< lanes whose solutions are refined
 
   /// Bits of the lanes whose moment matrices are well conditioned.
@@ -88,7 +88,7 @@ class TaylorGroup {
       sum_moments<Dim, Order>(z_, w_, size_, moments);
     }
     const Pack norm = norm_of_symmetric<terms>(moments);
-    const unsigned good = factorise_ldlt<terms>(moments, task_.least_pivot);
+    const unsigned good = factorise_ldlt<terms>(moments, task_.stencils.least_pivot);
     inverse_.take(moments);
     const unsigned safe = less(norm * norm * inverse_.square_bound(), all(safe_square));
     return (good & ~safe) == 0 ? good : good & judge(norm);
@@ -100,7 +100,7 @@ class TaylorGroup {
     inverse_.multiply(inverse);
     const Pack condition = norm * norm_of_symmetric<terms>(inverse);
     delicate_ = less(all(largest_unrefined), condition);
-    return less(condition, all(task_.condition_limit));
+    return less(condition, all(task_.stencils.limit));
   }
 
   void scale_orders() {

@@ -1,7 +1,8 @@
 #pragma once
 
-#include "methods/core/simd/gather_kernel.hpp"
 #include "methods/core/simd/output.hpp"
+#include "methods/core/simd/path.hpp"
+#include "methods/core/simd/taylor_stencils.hpp"
 
 namespace strongpoint {
 
@@ -23,15 +24,9 @@ struct PointTable {
   double* values;               ///< (D * entries) the weights
 };
 
-/// Taylor fits of stencils whose centre comes first.
+/// Taylor fits.
 struct TaylorTask {
-  GatherTask gathered;     ///< fulfilled, where there are weights; otherwise groups are gathered as
-                           ///< they are fitted, and z and rho have room for one
-  int order;               ///< highest degree of the monomials
-  double least_pivot;      ///< over its diagonal entry
-  double condition_limit;  ///< in the 1-norm of the moment matrix
-  const double* squared;   ///< (lane, n, group) T^2, null for ones; those of centre and padding
-                           ///< are not read
+  TaylorStencils stencils;
   DerivativeTable derivatives;
   PointTable points;
   Output output;    ///< how weights are stored where rows lie in one piece
@@ -42,11 +37,11 @@ struct TaylorTask {
 /// Numbers of scratch that a Taylor task takes: n nodes at most, m monomials, D derivatives.
 inline std::size_t taylor_scratch(std::size_t n, std::size_t m, std::size_t derivatives,
                                   std::size_t lanes) {
-  return lanes * (n + 2 * n * derivatives + 2 * m * derivatives);
+  return lanes * (2 * n * derivatives + 2 * m * derivatives);
 }
 
 /// Factorises the moment matrices and writes the weights of all points of anchors whose systems are
-/// well conditioned. Served are orders 1 to 4 in 1D and 2D, 1 to 3 in 3D.
+/// well conditioned.
 STRONGPOINT_SIMD_KERNEL(fit_taylor, TaylorTask);
 
 }  // namespace strongpoint
