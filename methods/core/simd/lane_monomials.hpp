@@ -118,9 +118,9 @@ struct EqualWeights {};
 /// Sums that stay in registers at a time, beside the monomials and, where they are others, the
 /// weighted ones.
 template <class NodeWeights>
-inline constexpr int sums_at_once = lanes == 8 ? 12 : 6;
+inline constexpr int sums_at_once = lanes == 8 ? 12 : 8;
 template <>
-inline constexpr int sums_at_once<EqualWeights> = lanes == 8 ? 16 : 6;
+inline constexpr int sums_at_once<EqualWeights> = lanes == 8 ? 16 : 8;
 
 /// Fills sums Begin to End - 1 of the moment table, over nodes 1 to n - 1.
 template <int Dim, int Degree, int Begin, int End, class NodeWeights>
