@@ -23,6 +23,11 @@ inline Ids load_ids(const int* ids, int count) {
   const unsigned some = count >= ids_at_once ? 0xFFFFU : count > 0 ? (1U << count) - 1 : 0U;
   return reinterpret_cast<Ids>(
       _mm512_mask_loadu_epi32(_mm512_set1_epi32(beyond), static_cast<__mmask16>(some), ids));
+#elif defined(__AVX2__)
+  const __m256i places = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+  const __m256i some = _mm256_cmpgt_epi32(_mm256_set1_epi32(count), places);
+  return reinterpret_cast<Ids>(
+      _mm256_blendv_epi8(_mm256_set1_epi32(beyond), _mm256_maskload_epi32(ids, some), some));
 #else
   Ids result;
   for (int i = 0; i < ids_at_once; ++i) result[i] = i < count ? ids[i] : beyond;
