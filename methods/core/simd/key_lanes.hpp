@@ -142,12 +142,36 @@ inline Keys first_lanes(int count, Keys a, Keys b) {
 }
 template <int Bits>
 Keys look_up(Keys keys, const int* table) {
-  return _mm256_i32gather_epi32(table, _mm256_and_si256(keys, _mm256_set1_epi32((1 << Bits) - 1)),
-                                4);
+  if constexpr (Bits == 5) {  // a gather takes as long as eight loads and more
+    const auto part = [&](int first) {
+      return _mm256_castsi256_ps(_mm256_permutevar8x32_epi32(load_keys(table + first), keys));
+    };
+    const __m256 by_eight = _mm256_castsi256_ps(_mm256_slli_epi32(keys, 31 - 3));
+    const __m256 by_sixteen = _mm256_castsi256_ps(_mm256_slli_epi32(keys, 31 - 4));
+    return _mm256_castps_si256(_mm256_blendv_ps(_mm256_blendv_ps(part(0), part(8), by_eight),
+                                                _mm256_blendv_ps(part(16), part(24), by_eight),
+                                                by_sixteen));
+  } else {
+    return _mm256_i32gather_epi32(table, _mm256_and_si256(keys, _mm256_set1_epi32((1 << Bits) - 1)),
+                                  4);
+  }
 }
 inline void store_keys(int* to, Keys a) { _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), a); }
 inline void store_first(int* to, int count, Keys a) {
-  _mm256_maskstore_epi32(to, first_bits(count), a);
+  // A masked store takes as long as ten others.
+  if (count == narrow_lanes) return store_keys(to, a);
+  __m128i left = _mm256_castsi256_si128(a);
+  if ((count & 4) != 0) {
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(to), left);
+    left = _mm256_extracti128_si256(a, 1);
+    to += 4;
+  }
+  if ((count & 2) != 0) {
+    _mm_storeu_si64(to, left);
+    left = _mm_unpackhi_epi64(left, left);
+    to += 2;
+  }
+  if ((count & 1) != 0) _mm_storeu_si32(to, left);
 }
 inline int lowest(Keys a) { return _mm_cvtsi128_si32(_mm256_castsi256_si128(a)); }
 inline Keys shift_in(Keys a, Keys b) {
@@ -176,8 +200,11 @@ inline Keys lesser(Keys a, Keys b) { return _mm256_min_epi32(a, b); }
 inline Keys greater(Keys a, Keys b) { return _mm256_max_epi32(a, b); }
 template <int X>
 Keys exchanged(Keys a) {
-  return _mm256_permutevar8x32_epi32(
-      a, _mm256_setr_epi32(0 ^ X, 1 ^ X, 2 ^ X, 3 ^ X, 4 ^ X, 5 ^ X, 6 ^ X, 7 ^ X));
+  constexpr int near = X & 3;
+  if constexpr (near != 0) {
+    a = _mm256_shuffle_epi32(a, (0 ^ near) | (1 ^ near) << 2 | (2 ^ near) << 4 | (3 ^ near) << 6);
+  }
+  return X < 4 ? a : _mm256_permute2x128_si256(a, a, 1);
 }
 template <int X, int Bit>
 Keys ordered(Keys a) {
