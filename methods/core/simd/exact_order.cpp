@@ -59,7 +59,7 @@ void rank(int count, Ordered& ordered) {
       preceding = preceding + choose(bits, one, none);
     }
     for (int i = first + lanes; i < count; ++i) {
-      preceding = preceding + choose(less(all(ordered.squares[i]), own), one, none);
+      preceding = preceding + choose_less(all(ordered.squares[i]), own, one, none);
     }
     store(ordered.ranks + first, preceding);
   }

@@ -97,7 +97,7 @@ template <int Dim, Padding padding>
     Pack square = square_of<Dim>(z);
     distances.largest = max(distances.largest, square);
     square = square * by_square;
-    if (padding == Padding::some) square = choose(less(all(j), sizes), square, all(1));
+    if (padding == Padding::some) square = choose_less(all(j), sizes, square, all(1));
     for (int c = 0; c < Dim; ++c) *to++ = z[c] * inverse;
     squares[j] = square;
     distances.nearest = min(distances.nearest, square - distances.before);

@@ -50,7 +50,7 @@ const Pack* weigh_nodes(const StencilTable& table, const NodeWeights& weights,
     return nullptr;
   }
   to[0] = all(0);
-  for (int j = group.least; j < size; ++j) to[j] = choose(less(all(j), group.size), to[j], all(0));
+  for (int j = group.least; j < size; ++j) to[j] = choose_less(all(j), group.size, to[j], all(0));
   return to;
 }
 

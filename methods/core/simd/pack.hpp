@@ -41,6 +41,8 @@ inline unsigned less(Pack a, Pack b) { return _mm512_cmp_pd_mask(a, b, _CMP_LT_O
 inline Pack choose(unsigned bits, Pack a, Pack b) {
   return _mm512_mask_blend_pd(static_cast<__mmask8>(bits), b, a);
 }
+/// x where a is less than b, y elsewhere.
+inline Pack choose_less(Pack a, Pack b, Pack x, Pack y) { return choose(less(a, b), x, y); }
 
 /// Nodes of all lanes side by side: `to[c]` gets coordinate c of node[0], node[1], ...
 template <int Dim>
@@ -113,6 +115,9 @@ inline Pack choose(unsigned bits, Pack a, Pack b) {
   const __m256i chosen = _mm256_and_si256(_mm256_set1_epi64x(bits), lane_bits);
   return _mm256_blendv_pd(b, a, _mm256_castsi256_pd(_mm256_cmpeq_epi64(chosen, lane_bits)));
 }
+inline Pack choose_less(Pack a, Pack b, Pack x, Pack y) {
+  return _mm256_blendv_pd(y, x, _mm256_cmp_pd(a, b, _CMP_LT_OQ));  // without the detour over bits
+}
 
 /// Nodes of all lanes side by side: `to[c]` gets coordinate c of node[0], node[1], ...
 template <int Dim>
@@ -157,6 +162,7 @@ inline Pack min(Pack a, Pack b) { return a < b ? a : b; }
 inline Pack max(Pack a, Pack b) { return a > b ? a : b; }
 inline unsigned less(Pack a, Pack b) { return a < b ? 1 : 0; }
 inline Pack choose(unsigned bits, Pack a, Pack b) { return bits != 0 ? a : b; }
+inline Pack choose_less(Pack a, Pack b, Pack x, Pack y) { return a < b ? x : y; }
 template <int Dim>
 [[gnu::always_inline]] inline void load_nodes(const double* const* node, Pack* to) {
   for (int c = 0; c < Dim; ++c) to[c] = node[0][c];

@@ -84,7 +84,7 @@ Pack exchange_nodes(const PolyharmonicGroup& group, int n, int k, int filled) {
   Pack here = all(n);
   for (int i = n - 1; i >= k; --i) {
     here = here - all(1);
-    row = choose(less(abs(group.polynomials(i, k)), largest), row, here);
+    row = choose_less(abs(group.polynomials(i, k)), largest, row, here);
   }
   double rows[lanes];
   store(rows, row);

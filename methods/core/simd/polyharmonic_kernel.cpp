@@ -95,7 +95,7 @@ void add_radial(const PolyharmonicTask& task, const Pack* x, int order, double f
   constexpr int highest = 12;  // above phs, and derivatives are of lower orders
   Pack square = all(0);
   for (int c = 0; c < Dim; ++c) square = square + x[c] * x[c];
-  const Pack inverse = all(1) / choose(less(all(0), square), square, all(1));
+  const Pack inverse = all(1) / choose_less(all(0), square, square, all(1));
   Pack f[highest];
   f[0] = odd_power(square, task.phs / 2) * all(factor);
   for (int k = 0; k < order; ++k) f[k + 1] = f[k] * inverse * all(0.5 * task.phs - k);

@@ -64,7 +64,7 @@ inline void look(const Arms& arms, int j, Pack ax, Pack ay, Pack place, Nearest&
   const Pack y = by - ay;
   // a x (b - a): exactly zero for a itself, which fused products of a x b are not.
   const Pack cross = ax * y - ay * x;
-  const Pack crosses = choose(less(all(0), cross), bx * x + by * y, all(infinity));
+  const Pack crosses = choose_less(all(0), cross, bx * x + by * y, all(infinity));
   compare(crosses, cross, place, nearest);
 }
 
@@ -96,7 +96,7 @@ inline Corner next_corner(const Arms& arms, int size, Pack ax, Pack ay, Pack fro
     if (j >= size) break;
     // A bisector that passes between the two ends is at most as far away as the farther of them.
     const Pack square =
-        choose(less(t, all(infinity)), corner.x * corner.x + corner.y * corner.y, all(infinity));
+        choose_less(t, all(infinity), corner.x * corner.x + corner.y * corner.y, all(infinity));
     const Pack limit = all(4 * slack) * max(from_squared, square);
     const Pack x = arms.x[j], y = arms.y[j];
     if ((less(x * x + y * y, limit) & on) == 0) break;

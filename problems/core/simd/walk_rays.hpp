@@ -101,7 +101,7 @@ inline void follow(const Bisectors& bisectors, int size, unsigned on, Rays& lane
     const Pack x = rays.x + t * rays.along_x;
     const Pack y = rays.y + t * rays.along_y;
     const Pack z = rays.z + t * rays.along_z;
-    const Pack square = choose(less(t, all(infinity)), x * x + y * y + z * z, all(infinity));
+    const Pack square = choose_less(t, all(infinity), x * x + y * y + z * z, all(infinity));
     const Pack limit = all(2 * slack) * max(from_squared, square);
     if (j < size && (less(bisectors.planes[j].half, limit) & on) == 0) break;
   }
