@@ -3,6 +3,7 @@
 import importlib.machinery
 import importlib.util
 import pathlib
+import tempfile
 import unittest
 
 SCRIPT = pathlib.Path(__file__).resolve().parent.parent / "scripts" / "bench"
@@ -37,6 +38,13 @@ class Verdicts(unittest.TestCase):
                             "error_message": "row 7 differs"})
         self.assertEqual(row["verdict"], "failed")
         self.assertIn("row 7 differs", bench.line_of(row))
+
+    def test_the_tables_go_where_they_are_wanted(self):
+        with tempfile.TemporaryDirectory() as directory:
+            output = pathlib.Path(directory) / "elsewhere"
+            bench.write([bench.judged(measured(7.5))], [("cpu", "one of a kind")], output)
+            self.assertIn("knn/2d,met,7.50", (output / "goals.csv").read_text(encoding="utf-8"))
+            self.assertIn("- cpu: one of a kind", (output / "goals.md").read_text(encoding="utf-8"))
 
     def test_every_program_has_its_source_and_every_main_is_a_program(self):
         sources = (SCRIPT.parent.parent / "bench").glob("*.cpp")
