@@ -76,9 +76,8 @@ class FreeCellMaker<3> {
   void make(const CellBlock& block, FreeCells& cells) const {
     // On a lattice walks fail where many edges meet: a few cells tell whether to go on with them.
     constexpr int trial = 16;
-    constexpr int least_lanes = 8;  // four lanes are as fast as a cut, one is slower
     const int tried = std::min(trial, block.size());
-    const bool are_many = lanes_of(simd_path()) >= least_lanes;
+    const bool are_many = lanes_of(simd_path()) > 1;  // one lane is slower than a cut
     if (are_many && 2 * walk(block, 0, tried, cells) <= tried) {
       walk(block, tried, block.size(), cells);
     } else {

@@ -13,10 +13,11 @@ struct Nearest {
 
 /// Takes a bisector that is nearer; `its_above` is infinite where there is none.
 inline void compare(Pack its_above, Pack its_below, Pack its_place, Nearest& nearest) {
-  const unsigned nearer = less(its_above * nearest.below, nearest.above * its_below);
-  nearest.above = choose(nearer, its_above, nearest.above);
-  nearest.below = choose(nearer, its_below, nearest.below);
-  nearest.place = choose(nearer, its_place, nearest.place);
+  const Pack a = its_above * nearest.below;
+  const Pack b = nearest.above * its_below;
+  nearest.above = choose_less(a, b, its_above, nearest.above);
+  nearest.below = choose_less(a, b, its_below, nearest.below);
+  nearest.place = choose_less(a, b, its_place, nearest.place);
 }
 
 }  // namespace strongpoint::STRONGPOINT_SIMD_PATH

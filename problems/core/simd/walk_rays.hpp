@@ -74,8 +74,8 @@ inline void look(const Bisectors& bisectors, const Bundle& rays, int j, Pack pla
   const Bisectors::Planes& plane = bisectors.planes[j];
   const Pack above = plane.half - (plane.x * rays.x + plane.y * rays.y + plane.z * rays.z);
   const Pack below = plane.x * rays.along_x + plane.y * rays.along_y + plane.z * rays.along_z;
-  const unsigned crosses = less(all(0), below) & bisectors.allowed[j];
-  compare(choose(crosses, above, all(infinity)), below, place, nearest);
+  const Pack allowed = choose(bisectors.allowed[j], above, all(infinity));
+  compare(choose_less(all(0), below, allowed, all(infinity)), below, place, nearest);
 }
 
 /// Follows the rays to the first bisectors that they leave their cells through.
