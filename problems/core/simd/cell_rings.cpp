@@ -34,25 +34,22 @@ int row_of(const RingTask& task, int first, int lane) {
 
 void gather(const RingTask& task, int first, Arms& arms) {
   const int* ids[lanes];
-  double origin[2][lanes];
-  double buffer[2][lanes];
+  const double* node[lanes];
   for (int lane = 0; lane < lanes; ++lane) {
     const int row = row_of(task, first, lane);
     ids[lane] = task.ids + task.offsets[row];
-    const double* const node = task.nodes + 2 * static_cast<long>(task.chosen[row]);
-    origin[0][lane] = node[0];
-    origin[1][lane] = node[1];
+    node[lane] = task.nodes + 2 * static_cast<long>(task.chosen[row]);
   }
-  const Pack x = load(origin[0]);
-  const Pack y = load(origin[1]);
+  Pack origin[2];
+  load_nodes<2>(node, origin);
   for (int j = 0; j < task.size; ++j) {
     for (int lane = 0; lane < lanes; ++lane) {
-      const double* const node = task.nodes + 2 * static_cast<long>(ids[lane][j]);
-      buffer[0][lane] = node[0];
-      buffer[1][lane] = node[1];
+      node[lane] = task.nodes + 2 * static_cast<long>(ids[lane][j]);
     }
-    arms.x[j] = load(buffer[0]) - x;
-    arms.y[j] = load(buffer[1]) - y;
+    Pack place[2];
+    load_nodes<2>(node, place);
+    arms.x[j] = place[0] - origin[0];
+    arms.y[j] = place[1] - origin[1];
   }
 }
 
@@ -107,17 +104,19 @@ inline Corner next_corner(const Arms& arms, int size, Pack ax, Pack ay, Pack fro
 
 /// Goes on to the next node of each lane in `on`; returns the lanes that are not back at the first.
 unsigned turn(const Arms& arms, const Corner& corner, unsigned on, Pack& ax, Pack& ay) {
-  double next[lanes], x[lanes], y[lanes];
+  double next[lanes];
   store(next, corner.next);
+  const double* x[lanes];
+  const double* y[lanes];
   unsigned back = 0;
   for (int lane = 0; lane < lanes; ++lane) {
     const int place = static_cast<int>(next[lane]);
-    x[lane] = reinterpret_cast<const double*>(arms.x + place)[lane];
-    y[lane] = reinterpret_cast<const double*>(arms.y + place)[lane];
+    x[lane] = reinterpret_cast<const double*>(arms.x + place) + lane;
+    y[lane] = reinterpret_cast<const double*>(arms.y + place) + lane;
     back |= static_cast<unsigned>(place == 1) << lane;
   }
-  ax = load(x);
-  ay = load(y);
+  load_nodes<1>(x, &ax);
+  load_nodes<1>(y, &ay);
   return on & ~back;
 }
 
