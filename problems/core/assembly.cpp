@@ -223,6 +223,7 @@ LinearSystem assemble(const EquationList& equations, const Weights& weights,
   const RowSources sources{equations, weights, unknowns, fields};
   LinearSystem system;
   system.fields = fields;
+  system.field_axis = unknowns.field_axis;
   system.width = columns;
   system.offsets.resize(rows + 1);
   system.right_hand_side.resize(rows);

@@ -1,12 +1,12 @@
 #include "problems/core/solvers.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include <fmt/format.h>
 
 #include "methods/core/error.hpp"
+#include "problems/core/backward_error.hpp"
 #include "problems/core/solver_entry.hpp"
 
 namespace strongpoint {
@@ -43,48 +43,33 @@ void check_shape(const LinearSystem& system, const SolverEntry& entry) {
                              entry.info.name, system.rows(), system.unknowns(), able));
 }
 
-/// Largest absolute row sum and column sum.
-struct Norms {
-  double rows = 0;
-  double columns = 0;
-};
+/// What the system in other units takes.
+std::size_t copied_bytes(const LinearSystem& system) {
+  return system.values.size() * (sizeof(double) + sizeof(std::int64_t));
+}
 
-Norms norms_of(const LinearSystem& system) {
-  Norms norms;
-  Eigen::VectorXd columns = Eigen::VectorXd::Zero(system.unknowns());
-  for (std::int64_t row = 0; row < system.rows(); ++row) {
-    double sum = 0;
-    for (std::int64_t i = system.offsets[row]; i < system.offsets[row + 1]; ++i) {
-      sum += std::abs(system.values[i]);
-      columns[system.columns[i]] += std::abs(system.values[i]);
-    }
-    norms.rows = std::max(norms.rows, sum);
+/// Solves in units in which the numbers of a row are of one size, whatever those of the fields:
+/// what judges pivots, drops small entries or stops by a norm then sees the same system in any
+/// units.
+LinearSolution solve_in_even_units(const LinearSystem& system, const FieldUnits& units,
+                                   const Solver& solver) {
+  const Eigen::VectorXd sizes = units.even_sizes();
+  if ((sizes.array() == 1).all()) return solver(system);
+  LinearSolution solution = solver(in_units(system, units, sizes));
+  for (std::int64_t i = 0; i < system.unknowns(); ++i) {
+    solution.x[i] *= sizes[units.of_unknowns()[i]];
   }
-  norms.columns = columns.size() > 0 ? columns.maxCoeff() : 0;
-  return norms;
+  if (solution.bytes > 0) solution.bytes += copied_bytes(system);
+  return solution;
 }
-
-/// True when |A| |x| / |b|, a lower bound of the condition number, says that no digit can be
-/// trusted.
-bool proves_singular(const LinearSystem& system, const Eigen::VectorXd& x, double norm) {
-  constexpr double largest_condition = 1e14;
-  return norm * x.lpNorm<Eigen::Infinity>() >
-         largest_condition * system.right_hand_side.lpNorm<Eigen::Infinity>();
-}
-
-double ratio(double part, double whole) { return whole > 0 ? part / whole : 0; }
 
 /// What `LinearSolution::residual` says. A small r has solved even an overdetermined system, and
 /// the direction of one at round-off level means nothing, so that the better figure counts.
-double relative_residual(const LinearSystem& system, const Eigen::VectorXd& x, const Norms& norms) {
-  const RowMajorView matrix = view_of(system);
-  const Eigen::VectorXd residual = system.right_hand_side - matrix * x;
-  const double size = residual.lpNorm<Eigen::Infinity>();
-  const double solved = ratio(size, norms.rows * x.lpNorm<Eigen::Infinity>() +
-                                        system.right_hand_side.lpNorm<Eigen::Infinity>());
-  if (is_square(system)) return solved;
-  const Eigen::VectorXd gradient = matrix.transpose() * residual;
-  return std::min(solved, ratio(gradient.lpNorm<Eigen::Infinity>(), norms.columns * size));
+double residual_of(const LinearSystem& system, const BackwardError& error,
+                   const Eigen::VectorXd& x) {
+  Eigen::VectorXd residual;
+  const double solved = error.of(x, residual);
+  return is_square(system) ? solved : std::min(solved, error.of_gradient(residual));
 }
 
 }  // namespace
@@ -143,12 +128,16 @@ LinearSolution solve(const LinearSystem& system, std::string_view text) {
   const SolverEntry& entry = find_entry(entries(), "solver", spec.name);
   const Solver solver = entry.make(Options(entry.info, spec));
   check_shape(system, entry);
-  LinearSolution solution = solver(system);
-  const Norms norms = norms_of(system);
-  if (!solution.x.allFinite() || proves_singular(system, solution.x, norms.rows)) {
+  const FieldUnits units(system);
+  LinearSolution solution = solve_in_even_units(system, units, solver);
+  if (solution.residual > 0) return solution;  // judged, by what the system was left to
+  const BackwardError error(system, units);
+  // No digit can be trusted of a system as close as this to a singular one.
+  constexpr double least_change = 1e-14;
+  if (!solution.x.allFinite() || error.of_null_vector(solution.x) < least_change) {
     throw_singular(system, entry.info.name);
   }
-  solution.residual = relative_residual(system, solution.x, norms);
+  solution.residual = residual_of(system, error, solution.x);
   if (!(solution.residual <= largest_residual)) {
     throw CaseError(
         fmt::format("{}: the relative residual {:.1e} exceeds {:.0e}; the system of {} "

@@ -21,9 +21,11 @@ struct LinearSystem {
   Eigen::VectorXd right_hand_side;      ///< (rows)
   LargeArray<double> row_scales;        ///< (rows) what each equation was multiplied by
   int fields = 1;                       ///< unknown = node * fields + field
-  std::int64_t width = 0;               ///< number of unknowns; 0: as many as rows
-  int dimension = 0;                    ///< of the space the nodes lie in; 0: not known
-  Eigen::MatrixXd places;               ///< (dimension, nodes) of displacements; else empty
+  std::vector<int> field_axis;  ///< (fields) axis of a vector's component, -1 for a scalar; empty:
+                                ///< all scalars; components share a unit
+  std::int64_t width = 0;       ///< number of unknowns; 0: as many as rows
+  int dimension = 0;            ///< of the space the nodes lie in; 0: not known
+  Eigen::MatrixXd places;       ///< (dimension, nodes) of displacements; else empty
   std::vector<int> order;  ///< (nodes) in which incomplete factors eliminate them; empty: as is
 
   std::int64_t rows() const { return static_cast<std::int64_t>(offsets.size()) - 1; }
@@ -33,8 +35,8 @@ struct LinearSystem {
 /// A solution of a linear system.
 struct LinearSolution {
   Eigen::VectorXd x;    ///< (unknowns)
-  double residual = 0;  ///< |b - A x| / (|A| |x| + |b|), maximum norm; of an overdetermined system
-                        ///< the smaller of this and |A^T r| / (|A^T| |r|), r = b - A x
+  double residual = 0;  ///< `BackwardError::of` the rows, whatever the units; of an overdetermined
+                        ///< system the smaller of this and `BackwardError::of_gradient`
   int iterations = 0;   ///< 0 with a direct solver
   std::size_t bytes = 0;  ///< most memory that the solver counted beside the system; 0: not counted
   std::string solver;     ///< what solved it, where the solver has a choice; otherwise empty

@@ -1,5 +1,4 @@
-#include <cmath>
-
+#include "problems/core/backward_error.hpp"
 #include "problems/core/front_order.hpp"
 #include "problems/core/frontal_factor.hpp"
 #include "problems/core/node_graph.hpp"
@@ -8,43 +7,9 @@
 namespace strongpoint {
 namespace {
 
-/// Residuals of a system, judged row by row: fields may differ in size by many powers of ten, and
-/// each has to be right.
-class Residuals {
- public:
-  /// The system must outlive the residuals.
-  explicit Residuals(const LinearSystem& system)
-      : system_(system), sums_(Eigen::MatrixXd::Zero(system.fields, system.rows())) {
-    for (Eigen::Index row = 0; row < system.rows(); ++row) {
-      for (std::int64_t i = system.offsets[row]; i < system.offsets[row + 1]; ++i) {
-        sums_(system.columns[i] % system.fields, row) += std::abs(system.values[i]);
-      }
-    }
-  }
-
-  /// Fills b - A x; returns the largest over the rows of |r| / (|b| + sum over the fields of |A|
-  /// times the largest value of the field), infinite where a row says 0 = r.
-  double find(const Eigen::VectorXd& x, Eigen::VectorXd& residual) const {
-    residual = system_.right_hand_side - view_of(system_) * x;
-    const Eigen::Map<const Eigen::MatrixXd> by_field(x.data(), system_.fields,
-                                                     x.size() / system_.fields);
-    const Eigen::VectorXd largest = by_field.rowwise().lpNorm<Eigen::Infinity>();
-    const Eigen::ArrayXd sizes =
-        (sums_.transpose() * largest + system_.right_hand_side.cwiseAbs()).array();
-    // 0 / 0 is no error.
-    return (residual.array() == 0)
-        .select(0.0, residual.array().abs() / sizes)
-        .maxCoeff<Eigen::PropagateNaN>();
-  }
-
- private:
-  const LinearSystem& system_;
-  Eigen::MatrixXd sums_;  ///< (fields, rows) of |A|
-};
-
 /// Solves and corrects; the solution is empty where the pivots or the precision do not serve.
 template <class Real>
-LinearSolution solve_in_front(const LinearSystem& system, const Residuals& residuals,
+LinearSolution solve_in_front(const LinearSystem& system, const BackwardError& error,
                               const NodeGraph& graph, std::span<const int> order,
                               int most_corrections) {
   constexpr double round_off = 1e-14;
@@ -64,7 +29,7 @@ LinearSolution solve_in_front(const LinearSystem& system, const Residuals& resid
     factor.solve(residual.data(), residual.data());
     solution.x += unit * residual;
     const double before = size;
-    size = residuals.find(solution.x, residual);
+    size = error.of(solution.x, residual);
     if (!(size < least_gain * before)) break;
   }
   if (size <= largest_residual_kept) return solution;
@@ -78,11 +43,12 @@ LinearSolution solve_in_fronts(const LinearSystem& system) {
   const NodeGraph graph = node_graph(view_of(system), system.fields);
   if (graph.offsets.empty()) return {};
   const std::vector<int> order = front_order(graph);
-  const Residuals residuals(system);
+  const FieldUnits units(system);
+  const BackwardError error(system, units);
   LinearSolution solution =
-      solve_in_front<float>(system, residuals, graph, order, most_corrections_of_single);
+      solve_in_front<float>(system, error, graph, order, most_corrections_of_single);
   if (solution.x.size() > 0) return solution;
-  return solve_in_front<double>(system, residuals, graph, order, most_corrections);
+  return solve_in_front<double>(system, error, graph, order, most_corrections);
 }
 
 LinearSolution solve_frontal(const LinearSystem& system) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "methods/core/error.hpp"
+#include "problems/core/backward_error.hpp"
 #include "problems/core/solver_entry.hpp"
 #include "problems/core/sparse_factor.hpp"
 
@@ -36,15 +37,6 @@ void check(const SparseFactor& factor, const LinearSystem& system) {
   }
 }
 
-/// Largest residual, relative to the right-hand side and the largest product of a row: what full
-/// pivoting and two steps of refinement leave is round-off.
-double residual_of(const LinearSystem& system, const Eigen::VectorXd& x) {
-  const Eigen::VectorXd residual = system.right_hand_side - view_of(system) * x;
-  const double size =
-      system.right_hand_side.lpNorm<Eigen::Infinity>() + x.lpNorm<Eigen::Infinity>();
-  return residual.lpNorm<Eigen::Infinity>() / size;
-}
-
 /// Solves with factors in an order; the solution is not finite where they have a fault.
 LinearSolution solve_with(const LinearSystem& system, const SparseFactor& factor) {
   LinearSolution solution;
@@ -58,14 +50,17 @@ LinearSolution solve_umfpack(const LinearSystem& system, Choice choice) {
   using Ordering = SparseFactor::Ordering;
   const RowMajorView matrix = view_of(system);
   if (choice == Choice::metis || (choice == Choice::choose && metis_pays(system))) {
-    // Rows have a largest entry of 1: what is above round-off by this much lost digits to pivots on
-    // the diagonal, and is solved again with full pivoting.
+    // What is above round-off by this much lost digits to pivots on the diagonal, and is solved
+    // again with full pivoting, which leaves round-off after two steps of refinement.
     constexpr double largest_residual_kept = 1e-13;
     const SparseFactor factor(matrix, Ordering::nodes, system.fields);
     if (factor.fault() == SparseFactor::Fault::out_of_memory) check(factor, system);
     if (factor.fault() == SparseFactor::Fault::none) {
       LinearSolution solution = solve_with(system, factor);
-      if (residual_of(system, solution.x) <= largest_residual_kept) return solution;
+      const FieldUnits units(system);
+      Eigen::VectorXd residual;
+      const double size = BackwardError(system, units).of(solution.x, residual);
+      if (size <= largest_residual_kept) return solution;
     }
   }
   const SparseFactor factor(matrix, Ordering::usual);
