@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,8 @@ class ElasticSystem {
                      smooth_field()};
     multiply(made.system, made.solution, made.system.right_hand_side);
     made.system.dimension = Dim;
+    made.system.field_axis.resize(Dim);
+    std::iota(made.system.field_axis.begin(), made.system.field_axis.end(), 0);
     made.system.places = nodes_;
     made.system.order = order_along(nodes_.row(0).transpose());
     return made;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <Eigen/QR>
 
@@ -9,14 +10,14 @@ namespace strongpoint {
 namespace {
 
 /// The unit of each field: the components of a vector share one, every scalar has its own.
-std::vector<int> units_of_fields(const LinearSystem& system) {
-  std::vector<int> units(system.fields);
-  int count = 0;
-  int of_vector = -1;
+std::vector<std::uint16_t> units_of_fields(const LinearSystem& system) {
+  std::vector<std::uint16_t> units(system.fields);
+  std::uint16_t count = 0;
+  std::optional<std::uint16_t> of_vector;
   for (int field = 0; field < system.fields; ++field) {
     const bool is_component = !system.field_axis.empty() && system.field_axis[field] >= 0;
-    if (is_component && of_vector < 0) of_vector = count++;
-    units[field] = is_component ? of_vector : count++;
+    if (is_component && !of_vector) of_vector = count++;
+    units[field] = is_component ? *of_vector : count++;
   }
   return units;
 }
@@ -24,7 +25,7 @@ std::vector<int> units_of_fields(const LinearSystem& system) {
 }  // namespace
 
 FieldUnits::FieldUnits(const LinearSystem& system) {
-  const std::vector<int> of_fields = units_of_fields(system);
+  const std::vector<std::uint16_t> of_fields = units_of_fields(system);
   const int units = *std::max_element(of_fields.begin(), of_fields.end()) + 1;
   if (units > 1) {
     of_unknowns_.resize(system.unknowns());
@@ -62,22 +63,33 @@ Eigen::VectorXd FieldUnits::sizes(const Eigen::VectorXd& x) const {
 }
 
 Eigen::VectorXd FieldUnits::even_sizes() const {
-  // Rows with one unit alone say nothing. The factor of a row is minus the mean of its logarithms.
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count(), count());
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(count());
-  Eigen::VectorXd logs(count()), present(count());
-  for (Eigen::Index row = 0; row < sums_.cols() && count() > 1; ++row) {
-    present = (sums_.col(row).array() > 0).cast<double>();
-    const double units = present.sum();
-    if (units < 2) continue;
-    logs = (sums_.col(row).array() > 0).select(sums_.col(row).array().log2(), 0.0);
-    logs -= logs.sum() / units * present;
-    normal.diagonal() += present;
-    normal -= present * present.transpose() / units;
-    right -= logs;
+  const int units = count();
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(units, units);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(units);
+  Eigen::VectorXd logs(units);
+  for (Eigen::Index row = 0; row < sums_.cols() && units > 1; ++row) {
+    const double* const sums = &sums_(0, row);
+    int present = 0;
+    double mean = 0;  // minus the logarithm of the row's factor
+    for (int unit = 0; unit < units; ++unit) {
+      if (!(sums[unit] > 0)) continue;
+      logs[unit] = std::log2(sums[unit]);
+      mean += logs[unit];
+      ++present;
+    }
+    if (present < 2) continue;  // says nothing
+    mean /= present;
+    for (int unit = 0; unit < units; ++unit) {
+      if (!(sums[unit] > 0)) continue;
+      right[unit] -= logs[unit] - mean;
+      normal(unit, unit) += 1;
+      for (int other = 0; other < units; ++other) {
+        if (sums[other] > 0) normal(unit, other) -= 1.0 / present;
+      }
+    }
   }
   Eigen::VectorXd sizes = normal.completeOrthogonalDecomposition().solve(right);
-  if (!sizes.allFinite()) return Eigen::VectorXd::Ones(count());
+  if (!sizes.allFinite()) return Eigen::VectorXd::Ones(units);
   sizes.array() -= sizes[0];  // of what is alike
   return sizes.unaryExpr([](double power) { return std::exp2(std::round(power)); });
 }

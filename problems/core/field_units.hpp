@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
@@ -16,7 +17,7 @@ class FieldUnits {
 
   int count() const { return static_cast<int>(sums_.rows()); }
   /// The unit of every unknown, (unknowns); empty when there is one unit.
-  const std::vector<int>& of_unknowns() const { return of_unknowns_; }
+  const std::vector<std::uint16_t>& of_unknowns() const { return of_unknowns_; }
   /// (units, rows) of |A|.
   const Eigen::MatrixXd& sums() const { return sums_; }
   /// The largest values of the fields of each unit, (units), or not a number.
@@ -28,7 +29,7 @@ class FieldUnits {
   Eigen::VectorXd even_sizes() const;
 
  private:
-  std::vector<int> of_unknowns_;
+  std::vector<std::uint16_t> of_unknowns_;
   Eigen::MatrixXd sums_;
 };
 
