@@ -59,7 +59,8 @@ LinearSystem laplace_pair(double h) {
 TEST(BalanceWeights, AreAreasInsideAndLengthsOfTheOtherSignOnSides) {
   const double h = 0.1;
   const LinearSystem system = laplace_pair(h);
-  const Eigen::VectorXd weights = balance_weights(system);
+  const Balance balance = balance_of(system);
+  const Eigen::VectorXd& weights = balance.weights;
   // Side rows know nodes at h and 2 h only, the mean of which is h sqrt 2.
   const double inside = h * h;
   const double side = -h * std::sqrt(2.0);
@@ -75,6 +76,8 @@ TEST(BalanceWeights, AreAreasInsideAndLengthsOfTheOtherSignOnSides) {
   // large.
   const double mean = (4 * -4 + 8 * 1.5 * -std::sqrt(2.0)) / 12;
   for (int row : {0, 1, 4}) EXPECT_NEAR(weights[row] * system.row_scales[row], mean, round_off);
+  for (int node : {0, 3, 5, 10}) EXPECT_EQ(balance.has_traction[node], 0) << node;
+  for (int node : {4, 7, 11, 12, 15}) EXPECT_EQ(balance.has_traction[node], 1) << node;
 }
 
 TEST(RigidTransfer, FollowsEveryRigidMotionOverTwoLevelsAndSumsForcesAndMoments) {
@@ -123,7 +126,7 @@ TEST(RigidTransfer, LeavesTheTurnOfALoneNodeToItself) {
   aggregates.of_node[10] = 1;
   const BlockMatrix<2> matrix = block_matrix<2>(system, order);
   const CoarseLevel<2, 3> coarse =
-      coarsen(matrix, rigid_transfer(aggregates, bodies, balance_weights(system)));
+      coarsen(matrix, rigid_transfer(aggregates, bodies, balance_of(system).weights));
   ASSERT_EQ(coarse.matrix.columns, (std::vector<int>{0, 1, 0, 1}));
   const Eigen::Map<const Eigen::Matrix3d> last(coarse.matrix.values.data() + 27);
   EXPECT_EQ(last(2, 2), 1);

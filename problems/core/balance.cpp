@@ -90,6 +90,7 @@ struct NodeWeight {
   std::array<double, fields> weights{};
   double diagonal = 0;
   int rows = 0;
+  bool has_traction = false;
 };
 
 NodeWeight weigh(const LinearSystem& system, std::int64_t node, std::vector<double>& squares) {
@@ -114,6 +115,7 @@ NodeWeight weigh(const LinearSystem& system, std::int64_t node, std::vector<doub
     trace += moments.diagonal / scales[field];
     ++result.rows;
   }
+  result.has_traction = order == 1;
   if (result.rows == 0 || !(squared > 0) || trace == 0) return {};
   const double length = spacing_at(system, node, squares);
   const double weight =
@@ -127,8 +129,10 @@ NodeWeight weigh(const LinearSystem& system, std::int64_t node, std::vector<doub
 
 }  // namespace
 
-Eigen::VectorXd balance_weights(const LinearSystem& system) {
-  Eigen::VectorXd weights = Eigen::VectorXd::Zero(system.rows());
+Balance balance_of(const LinearSystem& system) {
+  Balance balance{Eigen::VectorXd::Zero(system.rows()),
+                  std::vector<char>(system.rows() / fields, 0)};
+  Eigen::VectorXd& weights = balance.weights;
   std::vector<double> squares;
   double diagonals = 0;
   std::int64_t count = 0;
@@ -138,6 +142,7 @@ Eigen::VectorXd balance_weights(const LinearSystem& system) {
       weights[node * fields + field] = weight.weights[field];
     }
     if (weight.rows == 0) continue;
+    balance.has_traction[node] = weight.has_traction ? 1 : 0;
     diagonals += weight.diagonal;
     ++count;
   }
@@ -147,7 +152,7 @@ Eigen::VectorXd balance_weights(const LinearSystem& system) {
     const double diagonal = moments_of(system, row).diagonal;
     weights[row] = diagonal != 0 ? mean / diagonal : 1;
   }
-  return weights;
+  return balance;
 }
 
 }  // namespace strongpoint

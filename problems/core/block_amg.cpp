@@ -46,8 +46,9 @@ Transfer<Coarse, Coarse> next_transfer(const BlockMatrix<Coarse>& matrix,
 
 template <int Size, int Coarse>
 AmgLevel<Size, Coarse>::AmgLevel(const BlockMatrix<Size>& matrix, Transfer<Size, Coarse> transfer,
-                                 SingleMatrix<Size, Coarse> fine_to_coarse)
-    : smoother_(block_ilu0(matrix)),
+                                 SingleMatrix<Size, Coarse> fine_to_coarse,
+                                 const std::vector<char>& filled)
+    : smoother_(block_ilu0(matrix, filled)),
       transfer_(std::move(transfer)),
       fine_to_coarse_(std::move(fine_to_coarse)),
       residual_(static_cast<Eigen::Index>(matrix.rows()) * Size),
@@ -101,7 +102,7 @@ BlockAmg<Size, Coarse>::BlockAmg(const BlockMatrix<Size>& matrix, const Paramete
   auto transfer =
       first_transfer<Size, Coarse>(matrix, aggregate(matrix, parameters_.strong), plane);
   CoarseLevel<Size, Coarse> first = coarsen(matrix, transfer);
-  finest_.emplace(matrix, std::move(transfer), std::move(first.fine_to_coarse));
+  finest_.emplace(matrix, std::move(transfer), std::move(first.fine_to_coarse), plane.filled);
   BlockMatrix<Coarse> coarse = std::move(first.matrix);
   while (coarse.rows() > parameters_.coarsest_nodes) {
     // A level that hardly coarsens costs more than it gives.

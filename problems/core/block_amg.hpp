@@ -13,8 +13,9 @@ namespace strongpoint {
 template <int Size, int Coarse>
 class AmgLevel {
  public:
+  /// `filled` is read as `block_ilu0` does.
   AmgLevel(const BlockMatrix<Size>& matrix, Transfer<Size, Coarse> transfer,
-           SingleMatrix<Size, Coarse> fine_to_coarse);
+           SingleMatrix<Size, Coarse> fine_to_coarse, const std::vector<char>& filled = {});
 
   /// What is left of r on the coarser level.
   Eigen::VectorXf& restrict_to_coarse(const Eigen::VectorXf& r) const;
@@ -39,7 +40,7 @@ class AmgLevel {
 /// is 3), others are translated only. Two steps of a minimal residual instead of the W-cycle (the
 /// K-cycle of Notay 2010) take as many iterations on fixed squares and cubes and stall where rows
 /// are those of tractions on ghosts. Source: Stüben 2001, sections 4 and 9.1 (aggregation, enlarged
-/// correction). Deviation: rows are summed as forces and moments, see `balance_weights`, or,
+/// correction). Deviation: rows are summed as forces and moments, see `Balance`, or,
 /// without places, after a product with the inverses of the diagonal blocks.
 template <int Size, int Coarse = Size>
 class BlockAmg : public Preconditioner {
@@ -52,7 +53,8 @@ class BlockAmg : public Preconditioner {
   /// How the unknowns move.
   struct Plane {
     PlaneBodies bodies;
-    Eigen::VectorXd weights;  ///< of the rows
+    Eigen::VectorXd weights;   ///< of the rows
+    std::vector<char> filled;  ///< (nodes) 1 for rows with fill in ILU(0): those of tractions
   };
   /// `plane` is read with rigid bodies, that is when Coarse is not Size. Throws CaseError as
   /// `block_ilu0` does and when the coarsest matrix is singular.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -10,7 +11,30 @@
 namespace strongpoint {
 namespace {
 
-/// One row of an incomplete factorisation in the matrix' own pattern; `place` finds its blocks by
+/// The columns of a row's factors: the matrix' own and, where it is filled, those that its blocks
+/// reach through the rows above. `columns` is scratch.
+template <int Size>
+std::span<const int> pattern_of(const BlockMatrix<Size>& matrix, int row, bool is_filled,
+                                std::vector<int>& columns) {
+  const auto row_of = [&](int index) {
+    return std::span<const int>(matrix.columns.data() + matrix.offsets[index],
+                                matrix.columns.data() + matrix.offsets[index + 1]);
+  };
+  const std::span<const int> own = row_of(row);
+  if (!is_filled) return own;
+  columns.assign(own.begin(), own.end());
+  for (const int above : own) {
+    if (above >= row) break;
+    const std::span<const int> reached = row_of(above);
+    columns.insert(columns.end(), std::upper_bound(reached.begin(), reached.end(), above),
+                   reached.end());
+  }
+  std::sort(columns.begin(), columns.end());
+  columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+  return columns;
+}
+
+/// One row of an incomplete factorisation in its pattern; `place` finds its blocks by
 /// column and is -1 elsewhere.
 template <int Size>
 class PatternRow {
@@ -21,12 +45,16 @@ class PatternRow {
   explicit PatternRow(int rows) : place_(rows, -1) {}
 
   /// Copies row `index` of the matrix.
-  void start(const BlockMatrix<Size>& matrix, int index) {
-    begin_ = matrix.columns.data() + matrix.offsets[index];
-    count_ = static_cast<int>(matrix.offsets[index + 1] - matrix.offsets[index]);
-    const double* from = matrix.values.data() + matrix.offsets[index] * Factors::entries;
-    blocks_.assign(from, from + static_cast<std::ptrdiff_t>(count_) * Factors::entries);
+  void start(const BlockMatrix<Size>& matrix, int index, bool is_filled) {
+    const std::span<const int> pattern = pattern_of(matrix, index, is_filled, columns_);
+    begin_ = pattern.data();
+    count_ = static_cast<int>(pattern.size());
     for (int i = 0; i < count_; ++i) place_[begin_[i]] = i;
+    blocks_.assign(static_cast<std::size_t>(count_) * Factors::entries, 0.0);
+    for (std::int64_t i = matrix.offsets[index]; i < matrix.offsets[index + 1]; ++i) {
+      std::copy_n(matrix.values.data() + i * Factors::entries, Factors::entries,
+                  blocks_.data() + place_[matrix.columns[i]] * Factors::entries);
+    }
   }
   /// Subtracts multiples of the rows above.
   void eliminate(const Factors& factors, int index) {
@@ -64,7 +92,7 @@ class PatternRow {
  private:
   const int* begin_ = nullptr;
   int count_ = 0;
-  std::vector<int> place_;
+  std::vector<int> place_, columns_;
   std::vector<double> blocks_;
 
   Eigen::Map<Block> block(int i) {
@@ -148,20 +176,24 @@ void BlockFactors<Size>::apply(const Eigen::VectorXf& r, Eigen::VectorXf& z) con
 }
 
 template <int Size>
-BlockFactors<Size> block_ilu0(const BlockMatrix<Size>& matrix) {
+BlockFactors<Size> block_ilu0(const BlockMatrix<Size>& matrix, const std::vector<char>& filled) {
   const int rows = matrix.rows();
+  const auto is_filled = [&](int row) { return !filled.empty() && filled[row] != 0; };
   BlockFactors<Size> factors;
   std::int64_t below = 0;
+  std::int64_t all = 0;
+  std::vector<int> scratch;
   for (int row = 0; row < rows; ++row) {
-    const auto begin = matrix.columns.begin() + matrix.offsets[row];
-    below += std::lower_bound(begin, matrix.columns.begin() + matrix.offsets[row + 1], row) - begin;
+    const std::span<const int> pattern = pattern_of(matrix, row, is_filled(row), scratch);
+    below += std::lower_bound(pattern.begin(), pattern.end(), row) - pattern.begin();
+    all += static_cast<std::int64_t>(pattern.size());
   }
   factors.lower.reserve(rows, below);
-  factors.upper.reserve(rows, static_cast<std::int64_t>(matrix.columns.size()) - below);
+  factors.upper.reserve(rows, all - below);
   factors.pivots.reserve(static_cast<std::size_t>(rows) * factors.entries);
   PatternRow<Size> row(rows);
   for (int index = 0; index < rows; ++index) {
-    row.start(matrix, index);
+    row.start(matrix, index, is_filled(index));
     row.eliminate(factors, index);
     row.store(factors, index);
   }
@@ -174,7 +206,7 @@ BlockFactors<Size> block_ilu0(const BlockMatrix<Size>& matrix) {
                              Eigen::Matrix<double, size, size>&);                \
   template struct SingleMatrix<size>;                                            \
   template class BlockFactors<size>;                                             \
-  template BlockFactors<size> block_ilu0(const BlockMatrix<size>&);
+  template BlockFactors<size> block_ilu0(const BlockMatrix<size>&, const std::vector<char>&);
 STRONGPOINT_INSTANTIATE(1)
 STRONGPOINT_INSTANTIATE(2)
 STRONGPOINT_INSTANTIATE(3)

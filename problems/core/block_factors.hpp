@@ -79,9 +79,12 @@ class BlockFactors {
 };
 
 /// Incomplete LU factorisation in the pattern of the matrix. Source: Saad 2003, algorithm 10.4,
-/// with blocks for numbers. Deviation: singular pivots are shifted. Throws CaseError as
-/// `BlockFactors::append_pivot` does.
+/// with blocks for numbers. Deviations: singular pivots are shifted; rows marked in `filled`,
+/// (rows) or none, are given the first level of fill. Rows of tractions need it: no diagonal
+/// dominates them, and what ILU(0) drops along a side lets the substitution grow from node to node.
+/// Throws CaseError as `BlockFactors::append_pivot` does.
 template <int Size>
-BlockFactors<Size> block_ilu0(const BlockMatrix<Size>& matrix);
+BlockFactors<Size> block_ilu0(const BlockMatrix<Size>& matrix,
+                              const std::vector<char>& filled = {});
 
 }  // namespace strongpoint

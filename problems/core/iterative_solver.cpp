@@ -41,13 +41,16 @@ std::unique_ptr<Preconditioner> make_multigrid(const BlockMatrix<Size>& matrix,
   if constexpr (Size == 2) {
     const auto nodes = static_cast<Eigen::Index>(order.size());
     if (system.places.rows() == 2 && system.places.cols() == nodes) {
-      const Eigen::VectorXd weights = balance_weights(system);
+      const Balance balance = balance_of(system);
       typename BlockAmg<2, 3>::Plane plane{
-          {Eigen::Matrix2Xd(2, nodes), Eigen::VectorXd::Zero(nodes)}, Eigen::VectorXd(2 * nodes)};
+          {Eigen::Matrix2Xd(2, nodes), Eigen::VectorXd::Zero(nodes)},
+          Eigen::VectorXd(2 * nodes),
+          std::vector<char>(nodes)};
       for (Eigen::Index i = 0; i < nodes; ++i) {
         plane.bodies.places.col(i) = system.places.col(order[i]);
         plane.weights.segment<2>(2 * i) =
-            weights.segment<2>(2 * static_cast<Eigen::Index>(order[i]));
+            balance.weights.segment<2>(2 * static_cast<Eigen::Index>(order[i]));
+        plane.filled[i] = balance.has_traction[order[i]];
       }
       return std::make_unique<BlockAmg<2, 3>>(matrix, typename BlockAmg<2, 3>::Parameters{},
                                               std::move(plane));
