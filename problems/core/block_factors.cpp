@@ -50,9 +50,16 @@ class PatternRow {
     begin_ = pattern.data();
     count_ = static_cast<int>(pattern.size());
     for (int i = 0; i < count_; ++i) place_[begin_[i]] = i;
+    const std::int64_t begin = matrix.offsets[index];
+    const std::int64_t end = matrix.offsets[index + 1];
+    const double* from = matrix.values.data() + begin * Factors::entries;
+    if (!is_filled) {
+      blocks_.assign(from, from + (end - begin) * Factors::entries);
+      return;
+    }
     blocks_.assign(static_cast<std::size_t>(count_) * Factors::entries, 0.0);
-    for (std::int64_t i = matrix.offsets[index]; i < matrix.offsets[index + 1]; ++i) {
-      std::copy_n(matrix.values.data() + i * Factors::entries, Factors::entries,
+    for (std::int64_t i = begin; i < end; ++i, from += Factors::entries) {
+      std::copy_n(from, Factors::entries,
                   blocks_.data() + place_[matrix.columns[i]] * Factors::entries);
     }
   }
