@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "problems/core/balance.hpp"
+#include "problems/core/block_amg.hpp"
+#include "tests/linear_systems.hpp"
 
 namespace strongpoint {
 namespace {
@@ -132,6 +134,84 @@ TEST(RigidTransfer, LeavesTheTurnOfALoneNodeToItself) {
   EXPECT_EQ(last(2, 2), 1);
   EXPECT_EQ(last.row(2).head(2).norm() + last.col(2).head(2).norm(), 0);
   EXPECT_EQ(bodies.radii[1], 0);
+}
+
+/// The blocks (Rows, Columns) of a way between levels, one a node; a node's rows and its
+/// aggregate's columns.
+template <int Rows, int Columns>
+Eigen::MatrixXd dense_down(const Aggregates& aggregates, const std::vector<float>& blocks) {
+  const auto nodes = static_cast<Eigen::Index>(aggregates.of_node.size());
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(nodes * Rows, aggregates.count * Columns);
+  for (Eigen::Index node = 0; node < nodes; ++node) {
+    if (aggregates.of_node[node] < 0) continue;
+    dense.block<Rows, Columns>(node * Rows, aggregates.of_node[node] * Columns) =
+        Eigen::Map<const Eigen::Matrix<float, Rows, Columns>>(blocks.data() + node * Rows * Columns)
+            .template cast<double>();
+  }
+  return dense;
+}
+
+template <int Size>
+Eigen::MatrixXd dense_of(const BlockMatrix<Size>& matrix) {
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(matrix.rows() * Size, matrix.rows() * Size);
+  for (int row = 0; row < matrix.rows(); ++row) {
+    for (std::int64_t i = matrix.offsets[row]; i < matrix.offsets[row + 1]; ++i) {
+      dense.block<Size, Size>(row * Size, matrix.columns[i] * Size) =
+          Eigen::Map<const Eigen::Matrix<double, Size, Size>>(matrix.values.data() +
+                                                              i * Size * Size);
+    }
+  }
+  return dense;
+}
+
+/// Restricts, prolongs and smooths on a level and compares with products of dense matrices.
+template <int Size, int Coarse>
+void expect_dense_products(const BlockMatrix<Size>& matrix,
+                           const Transfer<Size, Coarse>& transfer) {
+  const Eigen::MatrixXd a = dense_of(matrix);
+  const Eigen::MatrixXd p = dense_down<Size, Coarse>(transfer.aggregates, transfer.down);
+  Eigen::MatrixXd r(p.cols(), p.rows());
+  r.setZero();
+  for (std::size_t node = 0; node < transfer.aggregates.of_node.size(); ++node) {
+    const int aggregate = transfer.aggregates.of_node[node];
+    if (aggregate < 0) continue;
+    r.block<Coarse, Size>(aggregate * Coarse, static_cast<Eigen::Index>(node) * Size) =
+        Eigen::Map<const Eigen::Matrix<float, Coarse, Size>>(transfer.up.data() +
+                                                             node * Coarse * Size)
+            .template cast<double>();
+  }
+  const AmgLevel<Size, Coarse> level(matrix, transfer, coarsen(matrix, transfer).fine_to_coarse);
+  std::mt19937_64 generator(1);
+  const Eigen::VectorXf given =
+      random_vector(static_cast<int>(a.rows()), generator).template cast<float>();
+  const Eigen::VectorXd summed = r * given.template cast<double>();
+  EXPECT_LT((level.restrict_to_coarse(given).template cast<double>() - summed).norm(),
+            single_precision * r.norm());
+
+  level.correction() = random_vector(static_cast<int>(p.cols()), generator).template cast<float>();
+  const Eigen::VectorXd correction = level.correction().template cast<double>();
+  const Eigen::VectorXd left = given.template cast<double>() - a * p * correction;
+  Eigen::VectorXf smoothed = left.cast<float>();
+  block_ilu0(matrix).apply(smoothed, smoothed);
+  const Eigen::VectorXd wanted = p * correction + smoothed.template cast<double>();
+  Eigen::VectorXf z(given.size());
+  level.smooth(given, z);
+  EXPECT_LT((z.template cast<double>() - wanted).norm(), 10 * single_precision * wanted.norm());
+}
+
+TEST(AmgLevel, RestrictsAndProlongsAsDenseMatricesDo) {
+  const LinearSystem system = laplace_pair(0.5);
+  std::vector<int> order(16);
+  for (int i = 0; i < 16; ++i) order[i] = i;
+  const BlockMatrix<2> matrix = block_matrix<2>(system, order);
+  // One node outside, one alone, a pair and larger ones.
+  const Aggregates first{{-1, 0, 0, 1, 2, 3, 3, 1, 2, 4, 3, 1, 2, 4, 4, 5}, 6};
+  expect_dense_products<2, 2>(matrix, constant_transfer(matrix, first));
+  PlaneBodies bodies{system.places, Eigen::VectorXd::Zero(16)};
+  const Transfer<2, 3> rigid = rigid_transfer(first, bodies, balance_of(system).weights);
+  expect_dense_products<2, 3>(matrix, rigid);
+  const BlockMatrix<3> coarse = coarsen(matrix, rigid).matrix;
+  expect_dense_products<3, 3>(coarse, rigid_transfer({{0, 0, 1, 1, -1, 1}, 2}, bodies));
 }
 
 }  // namespace

@@ -199,6 +199,11 @@ std::size_t BlockAmg<Size, Coarse>::bytes() const {
   return sum;
 }
 
+template class AmgLevel<1, 1>;
+template class AmgLevel<2, 2>;
+template class AmgLevel<2, 3>;
+template class AmgLevel<3, 3>;
+template class AmgLevel<4, 4>;
 template class BlockAmg<1>;
 template class BlockAmg<2>;
 template class BlockAmg<2, 3>;
