@@ -39,7 +39,7 @@ std::unique_ptr<Method<Dim>> make_kernel_projection_method(
     Promises promises) {
   Derivatives<Dim> terms;
   for (const Derivatives<Dim>& block : blocks) terms.merge(block);
-  ProjectionFit<Dim> fit(blocks, kernel_projections(kernel, terms));
+  ProjectionFit<Dim> fit(blocks, kernel_projections(kernel, terms), kernel.profile());
   const Needs needs{.volumes = true, .spacing = true, .centre = fit.needs_centre()};
   return std::make_unique<ProjectionMethod<Dim>>(
       std::move(fit), typename ProjectionMethod<Dim>::Traits{std::move(name), promises, needs,

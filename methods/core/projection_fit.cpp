@@ -12,14 +12,15 @@ namespace strongpoint {
 
 template <int Dim>
 ProjectionFit<Dim>::ProjectionFit(const std::vector<Derivatives<Dim>>& blocks,
-                                  Projections<Dim> projections)
-    : projections_(std::move(projections)) {
+                                  Projections<Dim> projections,
+                                  std::optional<SmoothingProfile> profile)
+    : projections_(std::move(projections)), profile_(profile) {
   for (const Derivatives<Dim>& block : blocks) {
     const bool is_nodal = !block.contains({});
     needs_centre_ = needs_centre_ || is_nodal;
     terms_.merge(block);
     block_end_.resize(terms_.size(), terms_.size());
-    is_nodal_.resize(terms_.size(), is_nodal);
+    is_nodal_.resize(terms_.size(), is_nodal ? 1 : 0);
   }
 }
 
@@ -27,7 +28,7 @@ template <int Dim>
 int ProjectionFit<Dim>::needed_nodes() const {
   int largest = 0;
   for (int begin = 0; begin < terms(); begin = block_end_[begin]) {
-    largest = std::max(largest, block_end_[begin] - begin + (is_nodal_[begin] ? 1 : 0));
+    largest = std::max(largest, block_end_[begin] - begin + is_nodal_[begin]);
   }
   return largest;
 }
@@ -47,10 +48,10 @@ void ProjectionFit<Dim>::project(const LocalStencil<Dim>& stencil, Workspace& wo
       const double projection = work.projections[static_cast<std::size_t>(j) * m + r];
       double* row = work.moments.data() + static_cast<std::ptrdiff_t>(r) * m;
       for (int s = 0; s < block_end_[r]; ++s) {
-        const bool is_known_value = is_nodal_[r] && order_of<Dim>(terms_[s]) == 0;
+        const bool is_known_value = is_nodal_[r] != 0 && order_of<Dim>(terms_[s]) == 0;
         if (!is_known_value) row[s] += projection * work.powers[s];
       }
-      if (is_nodal_[r]) work.nodal[r] += projection;
+      if (is_nodal_[r] != 0) work.nodal[r] += projection;
     }
   }
 }
@@ -100,6 +101,14 @@ void ProjectionFit<Dim>::evaluate(const LocalStencil<Dim>& stencil, Workspace& w
     }
     if (order_of<Dim>(derivatives[d]) == 0 && !has_value) weights(d, stencil.centre) += 1;
   }
+}
+
+template <int Dim>
+void ProjectionFit<Dim>::fill_batch(const StencilBatch<Dim>& batch, Workspace& work,
+                                    Weights& weights, std::span<LocalOutcome> outcomes) const {
+  if (!profile_) return;
+  work.batch.fill({terms_, block_end_, is_nodal_, needed_nodes(), needs_centre_, *profile_}, batch,
+                  weights, outcomes);
 }
 
 template <int Dim>

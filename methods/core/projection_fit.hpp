@@ -2,6 +2,8 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,7 @@
 #include "methods/core/derivatives.hpp"
 #include "methods/core/local_method.hpp"
 #include "methods/core/local_solvers.hpp"
+#include "methods/core/projection_batch.hpp"
 
 namespace strongpoint {
 
@@ -37,10 +40,14 @@ class ProjectionFit {
     std::vector<double> coefficients;  ///< (terms, n) of the Taylor terms, node after node
     std::vector<double> nodal;         ///< (terms) what the value at the anchor is projected with
     Lu lu;
+    ProjectionBatch<Dim> batch;
   };
 
-  /// The terms of each block, and one projection function for each term in their order.
-  ProjectionFit(const std::vector<Derivatives<Dim>>& blocks, Projections<Dim> projections);
+  /// The terms of each block, and one projection function for each term in their order. When these
+  /// are the derivatives of a smoothing kernel and the terms all up to order 2, `profile` lets
+  /// stencils be treated side by side.
+  ProjectionFit(const std::vector<Derivatives<Dim>>& blocks, Projections<Dim> projections,
+                std::optional<SmoothingProfile> profile = std::nullopt);
 
   /// Number of Taylor terms, of all blocks.
   int terms() const { return terms_.size(); }
@@ -52,6 +59,9 @@ class ProjectionFit {
   /// Weights (derivatives, n) of the Taylor polynomial at `offset` from the anchor.
   void evaluate(const LocalStencil<Dim>& stencil, Workspace& work, const Point<Dim>& offset,
                 const Derivatives<Dim>& derivatives, Eigen::Map<Eigen::MatrixXd> weights) const;
+  /// Weights of the anchors whose systems are well conditioned, as far as a profile was given.
+  void fill_batch(const StencilBatch<Dim>& batch, Workspace& work, Weights& weights,
+                  std::span<LocalOutcome> outcomes) const;
   /// The matrix A of all blocks, block lower triangular; scaled as asked.
   Eigen::MatrixXd local_matrix(const LocalStencil<Dim>& stencil, Scaling scaling) const;
   /// Derivatives that are among the terms can be given, and the value.
@@ -60,9 +70,10 @@ class ProjectionFit {
  private:
   Derivatives<Dim> terms_;
   std::vector<int> block_end_;  ///< of each term, one past the last term of its block
-  std::vector<bool> is_nodal_;  ///< of each term, its block takes the value from the node
+  std::vector<int> is_nodal_;   ///< of each term, 1 when its block takes the value from the node
   bool needs_centre_ = false;
   Projections<Dim> projections_;
+  std::optional<SmoothingProfile> profile_;
 
   /// Fills projections and moments; a moment that a block does not use is zero.
   void project(const LocalStencil<Dim>& stencil, Workspace& work) const;

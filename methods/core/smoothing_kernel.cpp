@@ -81,6 +81,18 @@ void SmoothingKernel::evaluate(double s, int order, double* f) const {
   }
 }
 
+SmoothingProfile SmoothingKernel::profile() const {
+  SmoothingProfile profile{};
+  for (const Piece& piece : pieces_) {
+    SmoothingProfile::Piece& made = profile.piece[profile.pieces++];
+    made.end = piece.end;
+    made.height = piece.coefficients.empty() ? normalisation_ : 0;
+    std::transform(piece.coefficients.begin(), piece.coefficients.end(), made.coefficients,
+                   [&](double coefficient) { return normalisation_ * coefficient; });
+  }
+  return profile;
+}
+
 OptionDoc SmoothingKernel::kernel_option(std::string default_name) {
   return {"kernel", std::move(default_name), "gauss | cubic_spline | quartic_spline | wendland"};
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "methods/core/options.hpp"
+#include "methods/core/simd/smoothing_profile.hpp"
 
 namespace strongpoint {
 
@@ -30,6 +31,8 @@ class SmoothingKernel {
   /// Fills f[m] = d^m W / ds^m, m = 0 to `order`, at s = (r/h)^2; zero outside the support. At s =
   /// 0 derivatives that only multiply powers of r may be infinite (see RadialDerivative).
   void evaluate(double s, int order, double* f) const;
+  /// The same for kernels that treat several stencils at a time; lengths are left to others.
+  SmoothingProfile profile() const;
 
   /// The option by which a method's spec names a kernel, and the one for its smoothing length.
   static OptionDoc kernel_option(std::string default_name);

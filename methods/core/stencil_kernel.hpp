@@ -34,6 +34,14 @@ class StencilKernel {
     return nominal * kernel_.support() * (1 + tolerance) >= 1 ? nominal
                                                               : stretched / kernel_.support();
   }
+  /// The same as numbers for kernels that treat several stencils at a time.
+  SmoothingProfile profile() const {
+    SmoothingProfile profile = kernel_.profile();
+    profile.factor = factor_;
+    profile.enough = kernel_.support() * (1 + tolerance);
+    profile.stretched = stretched / kernel_.support();
+    return profile;
+  }
   /// The stencil rule that gives all nodes within the support.
   std::string default_stencil() const {
     return fmt::format("radius[factor={:.6g}]", factor_ * kernel_.support());
