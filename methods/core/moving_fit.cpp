@@ -11,6 +11,9 @@
 namespace strongpoint {
 namespace {
 
+/// Windows are differentiated side by side up to this order.
+constexpr int most_batched = 2;
+
 /// True when beta <= alpha in every component.
 template <int Dim>
 bool is_within(const MultiIndex<Dim>& beta, const MultiIndex<Dim>& alpha) {
@@ -97,6 +100,22 @@ void MovingFit<Dim>::prepare(const Derivatives<Dim>& derivatives, Workspace& wor
     work.steps.push_back(std::move(step));
   }
   work.kernel.resize(highest + 1);
+  list_products(work);
+}
+
+template <int Dim>
+void MovingFit<Dim>::list_products(Workspace& work) const {
+  const auto windows = Derivatives<Dim>::between_orders(0, most_batched);
+  work.products.clear();
+  work.product_offsets.assign(1, 0);
+  for (const Step& step : work.steps) {
+    for (const Product& product : step.products) {
+      const MultiIndex<Dim>& window = work.known[product.window];
+      if (product.window == 0 || !windows.contains(window)) continue;
+      work.products.push_back({windows.index(window), product.function, product.binomial});
+    }
+    work.product_offsets.push_back(static_cast<int>(work.products.size()));
+  }
 }
 
 template <int Dim>
@@ -175,6 +194,21 @@ Eigen::MatrixXd MovingFit<Dim>::local_matrix(const LocalStencil<Dim>& stencil,
   std::vector<double> squared;
   evaluate_windows(stencil, Point<Dim>::Zero(), squared);
   return basis_.moments(stencil, squared, scaling);
+}
+
+template <int Dim>
+void MovingFit<Dim>::fill_batch(const StencilBatch<Dim>& batch, Workspace& work, Weights& weights,
+                                std::span<LocalOutcome> outcomes) const {
+  const bool is_full = differentiation_ == Differentiation::full;
+  if (is_full && batch.derivatives.highest_order() > most_batched) return;
+  prepare(batch.derivatives, work);
+  work.batch.fill({.monomials = basis_.monomials(),
+                   .known = work.known,
+                   .products = work.products,
+                   .product_offsets = work.product_offsets,
+                   .profile = &profile_,
+                   .uses_volumes = measure_ == NodeMeasure::volume},
+                  batch, weights, outcomes);
 }
 
 template <int Dim>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "methods/core/local_method.hpp"
 #include "methods/core/local_solvers.hpp"
 #include "methods/core/monomial_basis.hpp"
+#include "methods/core/moving_batch.hpp"
 #include "methods/core/radial_derivative.hpp"
 #include "methods/core/stencil_kernel.hpp"
 
@@ -60,6 +62,9 @@ class MovingFit {
     std::vector<double> windows;            ///< (n, steps) derivatives of w
     std::vector<double> functions;          ///< (n, steps) derivatives of r.p(x_j)
     std::vector<double> polynomial;         ///< (m) derivative of r
+    std::vector<WindowProduct> products;    ///< those of the steps but the last ones, for the batch
+    std::vector<int> product_offsets;       ///< (steps + 1)
+    MovingBatch<Dim> batch;
   };
 
   MovingFit(int degree, StencilKernel<Dim> kernel, Differentiation differentiation,
@@ -67,7 +72,8 @@ class MovingFit {
       : basis_(0, degree),
         kernel_(std::move(kernel)),
         differentiation_(differentiation),
-        measure_(measure) {}
+        measure_(measure),
+        profile_(kernel_.profile()) {}
 
   const StencilKernel<Dim>& kernel() const { return kernel_; }
   NodeMeasure measure() const { return measure_; }
@@ -80,6 +86,9 @@ class MovingFit {
   LocalOutcome evaluate(const LocalStencil<Dim>& stencil, Workspace& work, const Point<Dim>& offset,
                         const Derivatives<Dim>& derivatives,
                         Eigen::Map<Eigen::MatrixXd> weights) const;
+  /// Weights of the anchors whose normal equations are well conditioned at all their points.
+  void fill_batch(const StencilBatch<Dim>& batch, Workspace& work, Weights& weights,
+                  std::span<LocalOutcome> outcomes) const;
   /// The matrix A at the anchor, its columns Taylor terms (with their factorials).
   Eigen::MatrixXd local_matrix(const LocalStencil<Dim>& stencil, Scaling scaling) const;
   /// Full derivatives as far as the kernel is smooth, diffuse ones up to the degree.
@@ -90,12 +99,15 @@ class MovingFit {
   StencilKernel<Dim> kernel_;
   Differentiation differentiation_;
   NodeMeasure measure_;
+  SmoothingProfile profile_;
 
   void evaluate_windows(const LocalStencil<Dim>& stencil, const Point<Dim>& offset,
                         std::vector<double>& squared) const;
   LocalOutcome factorise_at(const LocalStencil<Dim>& stencil, const Point<Dim>& offset,
                             Workspace& work) const;
   void prepare(const Derivatives<Dim>& derivatives, Workspace& work) const;
+  /// Fills what the batch reads of the steps.
+  void list_products(Workspace& work) const;
   void differentiate_windows(const LocalStencil<Dim>& stencil, const Point<Dim>& offset,
                              Workspace& work) const;
   void differentiate_functions(const LocalStencil<Dim>& stencil, const Point<Dim>& offset,

@@ -57,6 +57,21 @@ void PolynomialFit<Dim>::evaluate(const LocalStencil<Dim>& stencil, Workspace& w
 }
 
 template <int Dim>
+void PolynomialFit<Dim>::fill_batch(const StencilBatch<Dim>& batch, Workspace& work,
+                                    Weights& weights, std::span<LocalOutcome> outcomes) const {
+  const bool is_function = !weight_->uses_volumes() && !weight_->is_one();
+  work.product_offsets.assign(batch.derivatives.size() + 1, 0);
+  work.batch.fill({.monomials = basis_.monomials(),
+                   .known = batch.derivatives,
+                   .products = {},
+                   .product_offsets = work.product_offsets,
+                   .uses_volumes = weight_->uses_volumes(),
+                   .weight = is_function ? weight_.get() : nullptr,
+                   .least_distance = least_distance_},
+                  batch, weights, outcomes);
+}
+
+template <int Dim>
 Eigen::MatrixXd PolynomialFit<Dim>::local_matrix(const LocalStencil<Dim>& stencil,
                                                  Scaling scaling) const {
   std::vector<double> distances;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "methods/core/local_method.hpp"
 #include "methods/core/local_solvers.hpp"
 #include "methods/core/monomial_basis.hpp"
+#include "methods/core/moving_batch.hpp"
 #include "methods/core/stencil_size.hpp"
 #include "methods/core/weight_function.hpp"
 
@@ -28,6 +30,8 @@ class PolynomialFit {
     std::vector<double> squared;    ///< (n) T^2
     std::vector<double> vector;     ///< (n)
     HouseholderQr qr;
+    std::vector<int> product_offsets;  ///< (derivatives + 1) zeros: no window is differentiated
+    MovingBatch<Dim> batch;
   };
 
   /// A weight that is infinite at the anchor (r^-3) is read no nearer than `nearest` stencil radii.
@@ -43,6 +47,9 @@ class PolynomialFit {
   /// Weights (derivatives, n) at `offset` from the anchor, all in units of the stencil radius.
   void evaluate(const LocalStencil<Dim>& stencil, Workspace& work, const Point<Dim>& offset,
                 const Derivatives<Dim>& derivatives, Eigen::Map<Eigen::MatrixXd> weights) const;
+  /// Weights of the anchors whose normal equations are well conditioned.
+  void fill_batch(const StencilBatch<Dim>& batch, Workspace& work, Weights& weights,
+                  std::span<LocalOutcome> outcomes) const;
   /// The matrix A of thesis (7.4), weighted: rows are projections on the monomials, columns Taylor
   /// terms (with their factorials), scaled as asked.
   Eigen::MatrixXd local_matrix(const LocalStencil<Dim>& stencil, Scaling scaling) const;
