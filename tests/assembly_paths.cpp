@@ -85,6 +85,29 @@ TEST(AssemblyPaths, MakeRowsOfTwoDerivativesAtAnyNumberOfNodes) {
   }
 }
 
+/// All of three derivatives, in packs the last of which overlaps the one before.
+TEST(AssemblyPaths, MakeRowsOfThreeDerivativesAtAnyNumberOfNodes) {
+  const Derivatives<2> second = Derivatives<2>::between_orders(2, 2);
+  constexpr int nodes = 70;
+  const NodeUnknowns unknowns{.count = nodes};
+  EquationList equations;
+  EquationWriter<2> write(equations, second);
+  for (int node = 0; node < nodes; ++node) {
+    write.at(node);
+    write.add(0, {2, 0}, 1);
+    write.add(0, {1, 1}, 0.5);
+    write.add(0, {0, 2}, 2);
+    write.equals(node);
+  }
+  for (const int per_row : {1, 3, 4, 5, 7, 8, 9, 17, 31, 33, 64}) {
+    const Weights weights = random_weights(nodes, per_row, second.size());
+    on_every_path([&] {
+      const LinearSystem system = assemble(equations, weights, unknowns, 1);
+      EXPECT_EQ(rows_that_differ(system, {equations, weights, unknowns, 1}), 0) << per_row;
+    });
+  }
+}
+
 /// Equilibrium reads three of the five derivatives.
 TEST(AssemblyPaths, MakeRowsOfTwoFieldsAtAnyNumberOfNodes) {
   constexpr int nodes = 50;

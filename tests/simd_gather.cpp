@@ -38,7 +38,6 @@ Gathered gather(const Sites<Dim>& sites, const Stencils& stencils, const std::ve
   gather_stencils({{sites.nodes.data(), sites.anchors.data(), stencils.offsets.data(),
                     stencils.nodes.data(), chosen.data(), static_cast<int>(chosen.size()), size},
                    Dim,
-                   Distances::roots,
                    made.z.data(),
                    made.rho.data(),
                    made.radius.data(),

@@ -24,7 +24,7 @@ const double* MovingBatch<Dim>::weigh(const MovingParts<Dim>& parts, const Stenc
   grow_to(squared_, count);
   grow_to(radius_, lanes);
   unsigned faulty = 0;
-  gather_stencils({table, Dim, Distances::roots, z_.data(), rho_.data(), radius_.data(), &faulty});
+  gather_stencils({table, Dim, z_.data(), rho_.data(), radius_.data(), &faulty});
   for (std::size_t i = 0; i < count; ++i) rho_[i] = std::max(rho_[i], parts.least_distance);
   parts.weight->squared({rho_.data(), count}, {squared_.data(), count});
   return squared_.data();

@@ -26,8 +26,9 @@ class WeightFunction {
   virtual bool is_one() const { return false; }
   /// The weight as kernels evaluate it themselves; null where they have to ask for `squared`.
   virtual const WeightFormula* formula() const { return nullptr; }
-  /// T^2 at the distances `rho` = r / R, in (0, 1], R being the stencil's largest distance. Called
-  /// once per stencil or group of stencils; never called for a weight that uses volumes.
+  /// T^2 at the distances `rho` = r / R, in [0, 1], R being the stencil's largest distance; it may
+  /// be infinite at 0. Called once per stencil or group of stencils; never called for a weight that
+  /// uses volumes.
   virtual void squared(std::span<const double> rho, std::span<double> result) const = 0;
 };
 

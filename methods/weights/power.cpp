@@ -9,8 +9,9 @@ WeightEntry weight_power() {
             const double p = options.number("p", 0, 16);
             if (p == std::floor(p)) {
               const int whole = static_cast<int>(p);
-              if (whole % 2 != 0)
+              if (whole % 2 != 0) {
                 return weight_of_formula({.coefficients = {0, 1}, .power = -whole});
+              }
               return weight_of_formula({.variable = WeightFormula::Variable::square,
                                         .coefficients = {0, 1},
                                         .power = -whole / 2});

@@ -13,11 +13,7 @@ void gather(const GatherTask& task) {
     // Arrays for kernels begin at cache lines.
     stencils.z = reinterpret_cast<Pack*>(task.z) + group * size * Dim;
     stencils.rho = reinterpret_cast<Pack*>(task.rho) + group * size;
-    if (task.distances == Distances::squares) {
-      gather_squares<Dim>(task.table, first, stencils);
-    } else {
-      gather_lanes<Dim>(task.table, first, stencils);
-    }
+    gather_lanes<Dim>(task.table, first, stencils);
     store(task.radius + group * lanes, stencils.radius);
     task.faulty[group] = stencils.coincident;
   }

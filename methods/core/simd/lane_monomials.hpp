@@ -117,14 +117,14 @@ struct EqualWeights {};
 
 /// Sums that stay in registers at a time, beside the monomials and, where they are others, the
 /// weighted ones.
-template <class NodeWeights>
+template <class PackWeights>
 inline constexpr int sums_at_once = lanes == 8 ? 12 : 8;
 template <>
 inline constexpr int sums_at_once<EqualWeights> = lanes == 8 ? 16 : 8;
 
 /// Fills sums Begin to End - 1 of the moment table, over nodes 1 to n - 1.
-template <int Dim, int Degree, int Begin, int End, class NodeWeights>
-[[gnu::always_inline]] inline void sum_some_moments(const Pack* z, NodeWeights w, int n,
+template <int Dim, int Degree, int Begin, int End, class PackWeights>
+[[gnu::always_inline]] inline void sum_some_moments(const Pack* z, PackWeights w, int n,
                                                     Pack* sums) {
   using Table = MomentTable<Dim, Degree>;
   constexpr const Table& table = moment_table<Dim, Degree>;
@@ -147,11 +147,11 @@ template <int Dim, int Degree, int Begin, int End, class NodeWeights>
 }
 
 /// The same for all sums from Begin on, in parts of about the same size.
-template <int Dim, int Degree, int Begin = 0, class NodeWeights>
-[[gnu::always_inline]] inline void sum_moments_from(const Pack* z, NodeWeights w, int n,
+template <int Dim, int Degree, int Begin = 0, class PackWeights>
+[[gnu::always_inline]] inline void sum_moments_from(const Pack* z, PackWeights w, int n,
                                                     Pack* sums) {
   constexpr int left = MomentTable<Dim, Degree>::size - Begin;
-  constexpr int most = sums_at_once<NodeWeights>;
+  constexpr int most = sums_at_once<PackWeights>;
   constexpr int parts = (left + most - 1) / most;
   constexpr int end = Begin + (left + parts - 1) / parts;
   sum_some_moments<Dim, Degree, Begin, end>(z, w, n, sums);
@@ -160,8 +160,8 @@ template <int Dim, int Degree, int Begin = 0, class NodeWeights>
 
 /// The moment matrix sum_j w_j b_j b_j^T (lower triangle, row after row) of nodes 1 to n - 1, where
 /// b holds the monomials and w is an array or EqualWeights.
-template <int Dim, int Degree, class NodeWeights>
-[[gnu::always_inline]] inline void sum_moments(const Pack* z, NodeWeights w, int n, Pack* moments) {
+template <int Dim, int Degree, class PackWeights>
+[[gnu::always_inline]] inline void sum_moments(const Pack* z, PackWeights w, int n, Pack* moments) {
   using Table = MomentTable<Dim, Degree>;
   constexpr const Table& table = moment_table<Dim, Degree>;
   Pack sums[Table::size];

@@ -155,8 +155,8 @@ class TaylorGroup {
   Pack at_centre(int d) const { return task_.derivatives.order[d] == 0 ? all(1) : all(0); }
 
   /// Fills the rows of some derivatives from their solutions.
-  template <int Count, class NodeWeights>
-  void weigh(int first, NodeWeights w) {
+  template <int Count, class PackWeights>
+  void weigh(int first, PackWeights w) {
     Pack solution[Count][terms];
     Pack centre[Count];
     for (int d = 0; d < Count; ++d) {
