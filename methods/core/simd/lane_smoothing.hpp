@@ -17,9 +17,9 @@ inline Pack exp_of_minus(Pack s) {
   constexpr int powers = 12;
   Pack power_of_two = all(1);
   for (int step = 8; step > 0; step /= 2) {
-    const unsigned far = less(all((step - 0.5) * high), s);
-    s = choose(far, (s - all(step * high)) - all(step * low), s);
-    power_of_two = choose(far, power_of_two * all(1.0 / (1 << step)), power_of_two);
+    const Pack near = all((step - 0.5) * high);
+    power_of_two = choose_less(near, s, power_of_two * all(1.0 / (1 << step)), power_of_two);
+    s = choose_less(near, s, (s - all(step * high)) - all(step * low), s);
   }
   Pack sum = all(1);
   for (int k = powers; k > 0; --k) sum = all(1) - s * sum * all(1.0 / k);
@@ -50,11 +50,10 @@ inline void evaluate_profile(const SmoothingProfile& profile, Pack s, Pack* f) {
       here[1] = all(0) - here[0];
       here[2] = here[0];
     } else {
-      const Pack inverse = all(1) / choose(less(all(0), q), q, all(1));
+      const Pack inverse = all(1) / choose_less(all(0), q, q, all(1));
       evaluate_polynomial(piece.coefficients, q, inverse, here);
     }
-    const unsigned beyond = less(all(piece.end), q);
-    for (int m = 0; m < 3; ++m) f[m] = choose(beyond, f[m], here[m]);
+    for (int m = 0; m < 3; ++m) f[m] = choose_less(all(piece.end), q, f[m], here[m]);
   }
 }
 
@@ -77,7 +76,7 @@ void differentiate_radial(const Pack* y, const Pack* f, Pack* values) {
 /// h over R, given the local spacing over R.
 inline Pack length_of(const SmoothingProfile& profile, Pack spacing) {
   const Pack nominal = all(profile.factor) * spacing;
-  return choose(less(nominal * all(profile.enough), all(1)), all(profile.stretched), nominal);
+  return choose_less(nominal * all(profile.enough), all(1), all(profile.stretched), nominal);
 }
 
 }  // namespace strongpoint::STRONGPOINT_SIMD_PATH

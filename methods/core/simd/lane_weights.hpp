@@ -2,45 +2,25 @@
 
 #include "methods/core/simd/lane_formula.hpp"
 #include "methods/core/simd/lane_gather.hpp"
+#include "methods/core/simd/lane_numbers.hpp"
 #include "methods/core/simd/taylor_stencils.hpp"
 
 namespace strongpoint::STRONGPOINT_SIMD_PATH {
-
-/// Fills `to` with the measures of a group's nodes in units of R^Dim.
-template <int Dim>
-void weigh_by_volume(const StencilTable& table, const double* volumes, const LaneStencils& group,
-                     Pack* to) {
-  const int* ids[lanes];
-  long last[lanes];
-  for (int lane = 0; lane < lanes; ++lane) {
-    const std::int64_t* const offsets = table.offsets + group.anchors[lane];
-    ids[lane] = table.ids + offsets[0];
-    last[lane] = offsets[1] - offsets[0] - 1;
-  }
-  Pack unit = all(1) / group.radius;
-  for (int c = 1; c < Dim; ++c) unit = unit / group.radius;
-  for (int j = 1; j < table.size; ++j) {
-    const double* node[lanes];
-    for (int lane = 0; lane < lanes; ++lane) {
-      node[lane] = volumes + ids[lane][j < last[lane] ? j : last[lane]];
-    }
-    load_nodes<1>(node, to + j);
-    to[j] = to[j] * unit;
-  }
-}
 
 /// Fills `to` with the weights of a group's nodes, the squares of whose distances are in
 /// `group.rho` and may be lost: zero at the centre, which comes first, and in padding. Returns
 /// `to`, or null for ones, which may stay in padding, where monomials vanish.
 template <int Dim>
-const Pack* weigh_nodes(const StencilTable& table, const NodeWeights& weights,
+const Pack* weigh_nodes(const StencilTable& table, int first, const NodeWeights& weights,
                         const LaneStencils& group, Pack* to) {
   const int size = table.size;
   if (weights.formula != nullptr) {
     const LaneFormula formula(*weights.formula);
     for (int j = 1; j < size; ++j) to[j] = formula.at_square(group.rho[j]);
   } else if (weights.volumes != nullptr) {
-    weigh_by_volume<Dim>(table, weights.volumes, group, to);
+    Pack unit = all(1) / group.radius;
+    for (int c = 1; c < Dim; ++c) unit = unit / group.radius;
+    gather_of_nodes(table, first, weights.volumes, unit, to);
   } else if (weights.squared != nullptr) {
     group.rho[0] = all(1);
     for (int j = 1; j < size; ++j) group.rho[j] = sqrt(group.rho[j]);
@@ -61,7 +41,7 @@ const Pack* gather_weighed(const TaylorStencils& stencils, int first, LaneStenci
   group.z = reinterpret_cast<Pack*>(stencils.z);
   group.rho = reinterpret_cast<Pack*>(stencils.rho);
   gather_squares<Dim>(stencils.table, first, group);
-  return weigh_nodes<Dim>(stencils.table, stencils.weights, group,
+  return weigh_nodes<Dim>(stencils.table, first, stencils.weights, group,
                           reinterpret_cast<Pack*>(stencils.squared));
 }
 

@@ -111,7 +111,7 @@ class MovingGroup {
     }
     Pack* const measures = measures_;
     const Pack size = stencils_.size;
-    for (int j = 0, n = n_; j < n; ++j) measures[j] = choose(less(all(j), size), all(1), all(0));
+    for (int j = 0, n = n_; j < n; ++j) measures[j] = choose_less(all(j), size, all(1), all(0));
   }
 
   /// Fills the windows at the p-th points: derivatives of order q times R^-q.
