@@ -23,7 +23,7 @@ unsigned write_finite_rows(const LanePoints<Dim>& points, long p, unsigned some,
   LaneRows to = points.rows(p, some, per_entry);
   scatter_lanes(rows, to.least, to.to, some);
   for (int lane = 0; lane < lanes; ++lane) {
-    if (to.entries[lane] <= to.least) continue;
+    if ((some >> lane & 1U) == 0 || to.entries[lane] <= to.least) continue;
     to.to[lane] += to.least;
     scatter_lanes(rows + to.least, to.entries[lane] - to.least, to.to, 1U << lane);
   }

@@ -71,9 +71,10 @@ class MovingGroup {
   }
 
  private:
+  Pack per_radius_{};  ///< 1 / R
+  Pack per_length_{};  ///< R / h
+  LaneStencils stencils_{};
   const MovingTask& task_;
-  int n_, m_, known_;
-  LaneStencils stencils_;
   LaneMatrix basis_;        ///< (n, m) p(z_j)
   LaneMatrix weighted_;     ///< (n, m) -w_j p(z_j)
   LaneMatrix windows_;      ///< (n, windows) w_j and its derivatives
@@ -89,8 +90,7 @@ class MovingGroup {
   Pack* inverse_;           ///< (m) of the pivots
   Pack* roots_;             ///< (m) of the diagonal of A
   Pack* values_;            ///< (m) room
-  Pack per_radius_;         ///< 1 / R
-  Pack per_length_;         ///< R / h
+  int n_, m_, known_;
 
   /// What is the same at all points.
   void prepare() {

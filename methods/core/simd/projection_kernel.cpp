@@ -60,9 +60,9 @@ class ProjectionGroup {
   }
 
  private:
+  Pack per_radius_{};  ///< 1 / R
+  LaneStencils stencils_{};
   const ProjectionTask& task_;
-  int n_, m_, count_;
-  LaneStencils stencils_;
   LaneMatrix projections_;                          ///< (n, m) with the other sign
   LaneMatrix monomials_;                            ///< (n, m)
   LaneMatrix rows_;                                 ///< (n, D) weights
@@ -70,8 +70,8 @@ class ProjectionGroup {
   LaneMatrix right_sides_, solutions_, residuals_;  ///< (m, D)
   Pack* room_;
   Pack* inverse_;
-  Pack* nodal_;      ///< (m) sums of the projections that take the value from the first node
-  Pack per_radius_;  ///< 1 / R
+  Pack* nodal_;  ///< (m) sums of the projections that take the value from the first node
+  int n_, m_, count_;
 
   /// Fills projections and monomials at the nodes.
   void project() {
