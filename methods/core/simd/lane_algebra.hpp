@@ -19,6 +19,24 @@ struct LaneMatrix {
   LaneMatrix transposed() const { return {first, column, row}; }
 };
 
+/// Hands out parts of an array, one after the other.
+class LaneRoom {
+ public:
+  /// `scratch` begins at a cache line.
+  explicit LaneRoom(double* scratch) : next_(reinterpret_cast<Pack*>(scratch)) {}
+
+  Pack* packs(long count) {
+    Pack* const taken = next_;
+    next_ += count;
+    return taken;
+  }
+  /// (rows, columns), row after row.
+  LaneMatrix matrix(long rows, long columns) { return {packs(rows * columns), columns, 1}; }
+
+ private:
+  Pack* next_;
+};
+
 /// Rows and columns of the largest tile whose sums, with a column and an entry of the factors, fit
 /// the registers: 32 of them on AVX-512, 16 elsewhere.
 inline constexpr int tile_rows = lanes == 8 ? 4 : 3;

@@ -22,29 +22,24 @@ class MovingGroup {
  public:
   explicit MovingGroup(const MovingTask& task)
       : task_(task), n_(task.table.size), m_(task.monomials.terms), known_(task.known.count) {
-    Pack* next = reinterpret_cast<Pack*>(task.scratch);
-    const auto take = [&next](int rows, int columns) {
-      const LaneMatrix taken{next, columns, 1};
-      next += static_cast<long>(rows) * columns;
-      return taken;
-    };
-    stencils_.z = take(n_, Dim).first;
-    stencils_.rho = take(n_, 1).first;
-    measures_ = take(n_, 1).first;
-    basis_ = take(n_, m_);
-    weighted_ = take(n_, m_);
-    windows_ = take(n_, up_to_second<Dim>);
-    products_ = take(n_, known_);
-    functions_ = take(n_, known_);
-    rows_ = take(n_, task.count);
-    matrix_ = take(m_, m_);
-    factors_ = take(m_, m_);
-    inverted_ = take(m_, m_);
-    right_sides_ = take(m_, known_);
-    polynomials_ = take(m_, known_);
-    inverse_ = take(m_, 1).first;
-    roots_ = take(m_, 1).first;
-    values_ = take(m_, 1).first;
+    LaneRoom room(task.scratch);
+    stencils_.z = room.packs(static_cast<long>(n_) * Dim);
+    stencils_.rho = room.packs(n_);
+    measures_ = room.packs(n_);
+    basis_ = room.matrix(n_, m_);
+    weighted_ = room.matrix(n_, m_);
+    windows_ = room.matrix(n_, up_to_second<Dim>);
+    products_ = room.matrix(n_, known_);
+    functions_ = room.matrix(n_, known_);
+    rows_ = room.matrix(n_, task.count);
+    matrix_ = room.matrix(m_, m_);
+    factors_ = room.matrix(m_, m_);
+    inverted_ = room.matrix(m_, m_);
+    right_sides_ = room.matrix(m_, known_);
+    polynomials_ = room.matrix(m_, known_);
+    inverse_ = room.packs(m_);
+    roots_ = room.packs(m_);
+    values_ = room.packs(m_);
   }
 
   unsigned run() {

@@ -33,25 +33,20 @@ inline PolyharmonicGroup make_group(const PolyharmonicTask& task) {
   const long m = task.terms;
   const long rest = n - m;
   const long columns = polyharmonic_columns(task.derivatives);
-  Pack* next = reinterpret_cast<Pack*>(task.room);
-  const auto take = [&next](long count) {
-    Pack* const taken = next;
-    next += count;
-    return taken;
-  };
+  LaneRoom room(task.room);
   PolyharmonicGroup group;
-  group.stencils.z = take(n * task.dimension);
-  group.stencils.rho = take(n);
-  group.place = take(n);
-  group.polynomials = {take(n * m), m, 1};
-  group.inverse = take(m);
-  group.chosen = {take(m * m), m, 1};
-  group.mixed = {take(rest * m), m, 1};
-  group.coupling = {take(rest * m), m, 1};
-  group.projected = {take(rest * rest), rest, 1};
-  group.inverse_pivots = take(rest);
-  group.radial = {take(n * columns), 1, n};
-  group.weights = {take(m * columns), 1, m};
+  group.stencils.z = room.packs(n * task.dimension);
+  group.stencils.rho = room.packs(n);
+  group.place = room.packs(n);
+  group.polynomials = room.matrix(n, m);
+  group.inverse = room.packs(m);
+  group.chosen = room.matrix(m, m);
+  group.mixed = room.matrix(rest, m);
+  group.coupling = room.matrix(rest, m);
+  group.projected = room.matrix(rest, rest);
+  group.inverse_pivots = room.packs(rest);
+  group.radial = {room.packs(n * columns), 1, n};
+  group.weights = {room.packs(m * columns), 1, m};
   return group;
 }
 

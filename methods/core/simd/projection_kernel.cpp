@@ -18,25 +18,20 @@ class ProjectionGroup {
  public:
   explicit ProjectionGroup(const ProjectionTask& task)
       : task_(task), n_(task.table.size), m_(task.monomials.terms), count_(task.derivatives.count) {
-    Pack* next = reinterpret_cast<Pack*>(task.scratch);
-    const auto take = [&next](int rows, int columns) {
-      const LaneMatrix taken{next, columns, 1};
-      next += static_cast<long>(rows) * columns;
-      return taken;
-    };
-    stencils_.z = take(n_, Dim).first;
-    stencils_.rho = take(n_, 1).first;
-    projections_ = take(n_, m_);
-    monomials_ = take(n_, m_);
-    rows_ = take(n_, count_);
-    matrix_ = take(m_, m_);
-    lu_ = take(m_, m_);
-    room_ = take(m_, m_ + 1).first;
-    right_sides_ = take(m_, count_);
-    solutions_ = take(m_, count_);
-    residuals_ = take(m_, count_);
-    inverse_ = take(m_, 1).first;
-    nodal_ = take(m_, 1).first;
+    LaneRoom room(task.scratch);
+    stencils_.z = room.packs(static_cast<long>(n_) * Dim);
+    stencils_.rho = room.packs(n_);
+    projections_ = room.matrix(n_, m_);
+    monomials_ = room.matrix(n_, m_);
+    rows_ = room.matrix(n_, count_);
+    matrix_ = room.matrix(m_, m_);
+    lu_ = room.matrix(m_, m_);
+    room_ = room.packs(static_cast<long>(m_) * (m_ + 1));
+    right_sides_ = room.matrix(m_, count_);
+    solutions_ = room.matrix(m_, count_);
+    residuals_ = room.matrix(m_, count_);
+    inverse_ = room.packs(m_);
+    nodal_ = room.packs(m_);
   }
 
   unsigned run() {
