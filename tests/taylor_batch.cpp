@@ -6,59 +6,23 @@
 
 #include "methods/core/condition.hpp"
 #include "methods/core/taylor_fit.hpp"
-#include "tests/contract_support.hpp"
-#include "tests/simd_paths.hpp"
+#include "tests/batch_checks.hpp"
 
 namespace strongpoint {
 namespace {
 
-/// Sites with two more evaluation points at every third anchor, off the anchor.
-template <int Dim>
-Sites<Dim> with_points_off_anchors(Sites<Dim> sites) {
-  const int count = sites.anchor_count();
-  const int extra = (count + 2) / 3;
-  sites.points.conservativeResize(Dim, count + 2 * extra);
-  for (int i = 0; i < 2 * extra; ++i) {
-    const int anchor = i / 2 * 3;
-    sites.points.col(count + i) =
-        sites.anchors.col(anchor) + Point<Dim>::Constant(i % 2 == 0 ? 0.01 : -0.02);
-    sites.point_anchor.push_back(anchor);
-  }
-  return sites;
-}
-
-/// Weights of all points, one anchor after the other, without a batch.
-template <int Dim>
-Weights one_by_one(const TaylorFit<Dim>& fit, const Sites<Dim>& sites, const Stencils& stencils,
-                   const Derivatives<Dim>& derivatives) {
-  Weights weights = weights_on_stencils<Dim>(sites, stencils, derivatives.size());
-  LocalStencil<Dim> local;
-  typename TaylorFit<Dim>::Workspace work;
-  for (int p = 0; p < sites.point_count(); ++p) {
-    const int anchor = sites.point_anchor[p];
-    EXPECT_EQ(local.gather(sites, stencils[anchor], anchor), LocalOutcome::ok);
-    EXPECT_EQ(fit.factorise(local, work), LocalOutcome::ok);
-    Eigen::Map<Eigen::MatrixXd> row = weights.row(p);
-    const Point<Dim> offset = (sites.points.col(p) - sites.anchors.col(anchor)) / local.radius;
-    fit.evaluate(local, work, offset, derivatives, row);
-    for (int d = 0; d < derivatives.size(); ++d) {
-      row.row(d) *= std::pow(local.radius, -order_of<Dim>(derivatives[d]));
-    }
-  }
-  return weights;
-}
-
 /// Round-off of systems of condition up to 1e6, of which refinement leaves the square root.
-constexpr double largest_difference = 1e-9;
+constexpr double tolerance = 1e-9;
 
 template <int Dim>
-void matches_one_by_one(const std::string& spec, int order, const std::string& cloud) {
+void matches_fits(const std::string& spec, int order, const std::string& cloud) {
   SCOPED_TRACE(spec + " on " + cloud);
   const auto scene = make_scene<Dim>(spec, cloud, test_level<Dim>(order), 1);
   const auto& method = dynamic_cast<const TaylorMethod<Dim>&>(*scene.method);
-  const Sites<Dim> sites = with_points_off_anchors<Dim>(scene.sites);
+  const Sites<Dim> sites = with_points_between<Dim>(scene.sites, 0.1);
   const auto derivatives = Derivatives<Dim>::between_orders(0, order);
-  const Weights expected = one_by_one<Dim>(method.kernel(), sites, scene.stencils, derivatives);
+  const Weights expected =
+      weights_one_by_one<Dim>(method.kernel(), sites, scene.stencils, derivatives);
   on_every_path([&] {
     const Weights found = method.weights(sites, scene.stencils, derivatives);
     ASSERT_EQ(found.columns, expected.columns);
@@ -66,7 +30,7 @@ void matches_one_by_one(const std::string& spec, int order, const std::string& c
       for (int d = 0; d < derivatives.size(); ++d) {
         const double size = expected.row(p).row(d).cwiseAbs().maxCoeff();
         EXPECT_LE((found.row(p).row(d) - expected.row(p).row(d)).cwiseAbs().maxCoeff(),
-                  largest_difference * size)
+                  tolerance * size)
             << "point " << p << ' ' << name_of<Dim>(derivatives[d]);
       }
     }
@@ -76,15 +40,15 @@ void matches_one_by_one(const std::string& spec, int order, const std::string& c
 TEST(TaylorBatch, MatchesFitsMadeOneByOneOnEveryPath) {
   for (const char* cloud : {"grid", "perturbed[amount=0.3]"}) {
     for (int order = 1; order <= 4; ++order) {
-      matches_one_by_one<1>(fmt::format("lsfdm[order={}]", order), order, cloud);
-      matches_one_by_one<2>(fmt::format("lsfdm[order={}]", order), order, cloud);
+      matches_fits<1>(fmt::format("lsfdm[order={}]", order), order, cloud);
+      matches_fits<2>(fmt::format("lsfdm[order={}]", order), order, cloud);
     }
     for (int order = 1; order <= 3; ++order) {
-      matches_one_by_one<3>(fmt::format("lsfdm[order={}]", order), order, cloud);
+      matches_fits<3>(fmt::format("lsfdm[order={}]", order), order, cloud);
     }
     for (const char* weight : {"volume", "cubic_spline", "quartic_spline", "inverse_cube", "power",
                                "power[p=3]", "power[p=2.5]"}) {
-      matches_one_by_one<2>(fmt::format("gfdm[weight={}]", weight), 2, cloud);
+      matches_fits<2>(fmt::format("gfdm[weight={}]", weight), 2, cloud);
     }
   }
 }
@@ -125,14 +89,14 @@ void keeps_digits_when_squeezed(const std::string& spec) {
   EXPECT_LT(*std::min_element(condition.begin(), condition.end()), 1e3);
   EXPECT_GT(*std::max_element(condition.begin(), condition.end()), 1e9);
   const auto derivatives = Derivatives<2>::between_orders(1, 2);
-  const Weights expected = one_by_one<2>(method.kernel(), sites, stencils, derivatives);
+  const Weights expected = weights_one_by_one<2>(method.kernel(), sites, stencils, derivatives);
   on_every_path([&] {
     const Weights found = method.weights(sites, stencils, derivatives);
     for (int p = 0; p < found.size(); ++p) {
       for (int d = 0; d < derivatives.size(); ++d) {
         const double size = expected.row(p).row(d).cwiseAbs().maxCoeff();
         EXPECT_LE((found.row(p).row(d) - expected.row(p).row(d)).cwiseAbs().maxCoeff(),
-                  largest_difference * size)
+                  tolerance * size)
             << "point " << p << ' ' << name_of<2>(derivatives[d]) << ", " << condition[p];
       }
     }
@@ -156,7 +120,7 @@ Stencils every(const Stencils& stencils, int stride) {
 TEST(TaylorBatch, GivesAnAnchorTheSameBitsInAnyCompany) {
   const auto scene = make_scene<2>("gfdm", "perturbed[amount=0.3]", 20, 1);
   const auto derivatives = Derivatives<2>::between_orders(1, 2);
-  const Sites<2> sites = with_points_off_anchors<2>(scene.sites);
+  const Sites<2> sites = with_points_between<2>(scene.sites, 0.1);
   on_every_path([&] {
     const Weights all = scene.method->weights(sites, scene.stencils, derivatives);
     for (int stride : {2, 3, 7}) {
