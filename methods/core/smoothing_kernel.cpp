@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
@@ -83,8 +85,14 @@ void SmoothingKernel::evaluate(double s, int order, double* f) const {
 
 SmoothingProfile SmoothingKernel::profile() const {
   SmoothingProfile profile{};
+  if (pieces_.size() > std::size(profile.piece)) {
+    throw std::logic_error("the profile of a smoothing kernel has no room for its pieces");
+  }
   for (const Piece& piece : pieces_) {
     SmoothingProfile::Piece& made = profile.piece[profile.pieces++];
+    if (piece.coefficients.size() > std::size(made.coefficients)) {
+      throw std::logic_error("the profile of a smoothing kernel has no room for its coefficients");
+    }
     made.end = piece.end;
     made.height = piece.coefficients.empty() ? normalisation_ : 0;
     std::transform(piece.coefficients.begin(), piece.coefficients.end(), made.coefficients,
