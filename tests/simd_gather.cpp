@@ -1,4 +1,8 @@
 // Stencils gathered one a lane: each path against stencils gathered one by one.
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
 #include <gtest/gtest.h>
 
 #include "methods/core/local_stencil.hpp"
@@ -103,6 +107,66 @@ TEST(SimdGather, FindsTheLanesWithCoincidentNodesOnly) {
           std::count(ids.begin(), ids.end(), 6) != 0 && std::count(ids.begin(), ids.end(), 7) != 0;
       EXPECT_EQ((made.faulty[a / lanes] >> (a % lanes) & 1U) != 0, has_both) << a;
     }
+  });
+}
+
+/// Wheels side by side, the centres first: each has `spokes` nodes around it, all as far away; in
+/// every other wheel two of them coincide.
+struct Wheels {
+  static constexpr int count = 16;
+  Points<2> nodes;
+  Stencils stencils;
+
+  explicit Wheels(int spokes) : nodes(2, count * (spokes + 1)) {
+    for (int wheel = 0; wheel < count; ++wheel) {
+      nodes.col(wheel) = Point<2>(10 * wheel, 0);
+      std::vector<int> stencil{wheel};
+      for (int spoke = 0; spoke < spokes; ++spoke) {
+        const int shown = wheel % 2 == 1 && spoke == spokes - 2 ? 3 : spoke;
+        const double angle = 2 * std::numbers::pi * (shown + 0.01 * wheel) / spokes;
+        stencil.push_back(count + wheel * spokes + spoke);
+        nodes.col(stencil.back()) = nodes.col(wheel) + Point<2>(std::cos(angle), std::sin(angle));
+      }
+      stencils.push_back(stencil);
+    }
+    for (int other = count; other < nodes.cols(); ++other) stencils.push_back({});
+  }
+};
+
+TEST(SimdGather, FindsCoincidentNodesAmongManyThatAreAsFarAway) {
+  for (int spokes : {20, 100}) {
+    const Wheels wheels(spokes);
+    const Sites<2> sites = sites_at_nodes<2>(wheels.nodes);
+    std::vector<int> chosen(Wheels::count);
+    std::iota(chosen.begin(), chosen.end(), 0);
+    on_every_path([&](int lanes) {
+      const Gathered made = gather<2>(sites, wheels.stencils, chosen, spokes + 1, lanes);
+      for (int wheel = 0; wheel < Wheels::count; ++wheel) {
+        EXPECT_EQ(made.faulty[wheel / lanes] >> (wheel % lanes) & 1U, wheel % 2U)
+            << wheel << " of " << spokes << " spokes";
+      }
+    });
+  }
+}
+
+/// Nodes as far away that only one direction tells apart: the one in which the marks by which a
+/// group is looked over do not change.
+TEST(SimdGather, TellsNodesApartThatDifferInOneDirection) {
+  Points<2> nodes(2, 16);
+  nodes.setZero();
+  const Point<2> along = Point<2>(0.7548776662466927, -1).normalized();
+  const Point<2> across(-along[1], along[0]);
+  for (int j = 1; j < 16; ++j) {
+    const double angle = 0.19 * ((j + 1) / 2);
+    nodes.col(j) = (j % 2 == 1 ? -1 : 1) * std::sin(angle) * along + std::cos(angle) * across;
+  }
+  Stencils stencils;
+  std::vector<int> all(16);
+  std::iota(all.begin(), all.end(), 0);
+  stencils.push_back(all);
+  for (int other = 1; other < 16; ++other) stencils.push_back({});
+  on_every_path([&](int lanes) {
+    EXPECT_EQ(gather<2>(sites_at_nodes<2>(nodes), stencils, {0}, 16, lanes).faulty[0], 0U);
   });
 }
 

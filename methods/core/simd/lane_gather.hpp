@@ -22,10 +22,45 @@ struct LaneStencils {
 /// than 1e-10.
 inline constexpr double distinct_squares = 2e-10;
 
+/// Coincident nodes are closer than this, in units of R, as for stencils one by one.
+inline constexpr double coincident_distance = 1e-10;
+
+/// A number of a node that changes by at most `mark_growth` times the largest change of its
+/// coordinates, and that tells the nodes of a lattice apart: its factors are irrational.
+template <int Dim>
+[[gnu::always_inline]] inline Pack mark_of(const Pack* z) {
+  Pack mark = z[0];
+  if constexpr (Dim > 1) mark = mark + all(0.7548776662466927) * z[1];
+  if constexpr (Dim > 2) mark = mark + all(0.5698402909980532) * z[2];
+  return mark;
+}
+inline constexpr double mark_growth = 2.4;
+
+/// Whether two nodes may coincide: they are equally far away, and their marks are the same. Most
+/// nodes of a lattice are as far away as others.
+template <int Dim>
+bool may_coincide(const LaneStencils& group, const Pack* squares, int size) {
+  constexpr int most = 64;  // equally far away, of which the marks are kept
+  Pack marks[most];
+  Pack nearest = all(1);
+  for (int begin = 0, end = 0; begin < size; begin = end) {
+    marks[0] = mark_of<Dim>(group.z + static_cast<long>(begin) * Dim);
+    for (end = begin + 1; end < size; ++end) {
+      const int count = end - begin;
+      if (less(squares[end] - squares[end - 1], all(distinct_squares)) == 0) break;
+      if (count == most) return true;
+      const Pack mark = mark_of<Dim>(group.z + static_cast<long>(end) * Dim);
+      for (int i = 0; i < count; ++i) nearest = min(nearest, abs(mark - marks[i]));
+      marks[count] = mark;
+    }
+  }
+  return less(nearest, all(mark_growth * coincident_distance)) != 0;
+}
+
 /// Bits of the lanes in which two nodes coincide, given the squares of their distances over R.
 template <int Dim>
 unsigned coincident_lanes(const LaneStencils& group, const Pack* squares, int size) {
-  const Pack tolerance = all(1e-10);  // in units of R, as for stencils one by one
+  const Pack tolerance = all(coincident_distance);
   const Pack apart = all(distinct_squares);
   unsigned found = 0;
   for (int i = 0; i + 1 < size; ++i) {
@@ -175,8 +210,9 @@ void gather_squares(const StencilTable& table, int first, LaneStencils& group) {
     }
     // Nodes that round-off alone tells apart may have changed places.
   } while (less(farthest, found.largest) != 0);
-  // Nodes at one place are equally far away.
-  if (less(found.nearest, all(distinct_squares)) != 0) {
+  // Nodes at one place are equally far away. Padding would seem to coincide.
+  if (less(found.nearest, all(distinct_squares)) != 0 &&
+      (nodes.least < table.size || may_coincide<Dim>(group, group.rho, table.size))) {
     group.coincident |= coincident_lanes<Dim>(group, group.rho, table.size);
   }
 }
