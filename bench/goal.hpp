@@ -28,8 +28,11 @@ struct Contest {
   std::function<void()> rival;
   double nodes = 1;   ///< that each run treats
   std::string label;  ///< cloud, seed, sizes
-  int repeats = 7;    ///< runs of each
+  int repeats = 7;    ///< runs of each at least
 };
+
+/// Seconds that are filled with runs: what else the machine does slows few of many.
+inline constexpr double least_seconds = 3;
 
 /// CPU seconds of the process that a call takes.
 inline double cpu_seconds(const std::function<void()>& call) {
@@ -49,9 +52,13 @@ inline void time_contest(benchmark::State& state, const Goal& goal, const Contes
   double subject = std::numeric_limits<double>::infinity();
   double rival = subject;
   for (auto _ : state) {
-    for (int run = 0; run < contest.repeats; ++run) {
-      rival = std::min(rival, cpu_seconds(contest.rival));
-      subject = std::min(subject, cpu_seconds(contest.subject));
+    double spent = 0;
+    for (int run = 0; run < contest.repeats || spent < least_seconds; ++run) {
+      const double theirs = cpu_seconds(contest.rival);
+      const double ours = cpu_seconds(contest.subject);
+      rival = std::min(rival, theirs);
+      subject = std::min(subject, ours);
+      spent += theirs + ours;
     }
     state.SetIterationTime(subject);
   }
