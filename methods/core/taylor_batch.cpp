@@ -38,39 +38,34 @@ NodeWeights weights_of(const WeightFunction& weight, const double* volumes) {
 }  // namespace
 
 template <int Dim>
-void TaylorBatch<Dim>::sort_by_size(const Sites<Dim>& sites, std::span<const int> anchors,
-                                    const Stencils& stencils, int needed) {
-  by_size_.resize(anchors.size());
-  std::size_t count = 0;
-  bool sorted = true;
-  int before = 0;
+std::span<const SizeOrder::Entry> TaylorBatch<Dim>::ordered(const Sites<Dim>& sites,
+                                                            std::span<const int> anchors,
+                                                            const Stencils& stencils, int needed) {
+  order_.begin(anchors.size());
   for (std::size_t i = 0; i < anchors.size(); ++i) {
     const std::span<const int> nodes = stencils[stencil_of_place_[i]];
     const int size = static_cast<int>(nodes.size());
     fetch_ahead(nodes.data());
     // The centre comes first, unless another node lies there too.
     if (size < needed || nodes[0] != sites.anchor_node[anchors[i]]) continue;
-    sorted = sorted && before <= size;
-    before = size;
-    by_size_[count++] = {size, static_cast<int>(i)};
+    order_.add(size, static_cast<int>(i));
   }
-  by_size_.resize(count);
-  if (!sorted) std::sort(by_size_.begin(), by_size_.end());
+  return order_.arrange();
 }
 
 template <int Dim>
 template <class Treat>
-void TaylorBatch<Dim>::each_part(Treat treat) {
+void TaylorBatch<Dim>::each_part(std::span<const SizeOrder::Entry> ordered, Treat treat) {
   const std::size_t lanes = lanes_of(simd_path());
-  const std::size_t count = by_size_.size();
+  const std::size_t count = ordered.size();
   for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
-    const int size = by_size_[std::min(begin + lanes, count) - 1].first;
+    const int size = ordered[std::min(begin + lanes, count) - 1].size;
     for (end = begin; end < count;) {
       const std::size_t next = std::min(end + lanes, count);
-      if (by_size_[next - 1].first != size) break;
+      if (ordered[next - 1].size != size) break;
       end = next;
     }
-    treat(std::span<const Sized>(by_size_.data() + begin, end - begin), size);
+    treat(ordered.subspan(begin, end - begin), size);
   }
 }
 
@@ -129,11 +124,11 @@ void TaylorBatch<Dim>::fill(const TaylorParts<Dim>& fit, const StencilBatch<Dim>
   const std::size_t lanes = lanes_of(simd_path());
   const int terms = fit.basis.terms();
   stencil_of_place_.assign(batch.anchors.begin(), batch.anchors.end());
-  sort_by_size(batch.sites, batch.anchors, batch.stencils, terms + 1);
+  const auto by_size = ordered(batch.sites, batch.anchors, batch.stencils, terms + 1);
   tabulate(fit.basis, batch.derivatives);
-  each_part([&](std::span<const Sized> part, int size) {
+  each_part(by_size, [&](std::span<const SizeOrder::Entry> part, int size) {
     chosen_.resize(part.size());
-    for (std::size_t i = 0; i < part.size(); ++i) chosen_[i] = batch.anchors[part[i].second];
+    for (std::size_t i = 0; i < part.size(); ++i) chosen_[i] = batch.anchors[part[i].place];
     grow_to(scratch_, taylor_scratch(size, terms, batch.derivatives.size(), lanes));
     fit_taylor(
         {prepare(fit, batch.sites, batch.sites.anchors.data(), batch.stencils.offsets.data(),
@@ -148,7 +143,7 @@ void TaylorBatch<Dim>::fill(const TaylorParts<Dim>& fit, const StencilBatch<Dim>
       const unsigned done = done_[i / lanes];
       const std::size_t end = std::min(i + lanes, part.size());
       for (std::size_t j = i; j < end; ++j) {
-        LocalOutcome& outcome = outcomes[part[j].second];
+        LocalOutcome& outcome = outcomes[part[j].place];
         outcome = (done >> (j - i) & 1U) != 0 ? LocalOutcome::ok : outcome;
       }
     }
@@ -175,10 +170,10 @@ void TaylorBatch<Dim>::judge(const TaylorParts<Dim>& fit, const Sites<Dim>& site
     orders_.push_back(scaling == Scaling::row ? order_of<Dim>(monomial) : 0);
   }
   derivatives_ = {};
-  sort_by_size(sites, anchors, stencils, terms + 1);
-  each_part([&](std::span<const Sized> part, int size) {
+  const auto by_size = ordered(sites, anchors, stencils, terms + 1);
+  each_part(by_size, [&](std::span<const SizeOrder::Entry> part, int size) {
     chosen_.clear();
-    for (const auto& [ignored, place] : part) chosen_.push_back(place);
+    for (const SizeOrder::Entry& entry : part) chosen_.push_back(entry.place);
     const std::size_t padded = (part.size() + lanes - 1) / lanes * lanes;
     grow_to(one_, padded);
     grow_to(maximum_, padded);
@@ -188,10 +183,10 @@ void TaylorBatch<Dim>::judge(const TaylorParts<Dim>& fit, const Sites<Dim>& site
     for (std::size_t i = 0; i < part.size(); ++i) {
       if ((done_[i / lanes] >> (i % lanes) & 1U) == 0) continue;
       // |A|_2^2 <= |A|_1 |A|_max, and either is at most sqrt(m) |A|_2.
-      bounds[part[i].second] = norm == ConditionNorm::one
-                                   ? ConditionBounds{one_[i], one_[i]}
-                                   : ConditionBounds{std::max(one_[i], maximum_[i]) / terms,
-                                                     std::sqrt(one_[i] * maximum_[i])};
+      bounds[part[i].place] = norm == ConditionNorm::one
+                                  ? ConditionBounds{one_[i], one_[i]}
+                                  : ConditionBounds{std::max(one_[i], maximum_[i]) / terms,
+                                                    std::sqrt(one_[i] * maximum_[i])};
     }
   });
 }

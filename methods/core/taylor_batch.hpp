@@ -1,7 +1,6 @@
 #pragma once
 
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "methods/core/condition.hpp"
@@ -9,6 +8,7 @@
 #include "methods/core/monomial_basis.hpp"
 #include "methods/core/simd/lane_array.hpp"
 #include "methods/core/simd/taylor_kernel.hpp"
+#include "methods/core/size_order.hpp"
 #include "methods/core/stencil_batch.hpp"
 #include "methods/core/weight_function.hpp"
 #include "methods/core/weights.hpp"
@@ -47,9 +47,7 @@ class TaylorBatch {
              std::span<ConditionBounds> bounds);
 
  private:
-  using Sized = std::pair<int, int>;  ///< size of a stencil, its place in the batch
-
-  std::vector<Sized> by_size_;
+  SizeOrder order_;
   std::vector<int> chosen_, stencil_of_place_;
   LaneArray z_, rho_, squared_, scratch_, one_, maximum_;
   std::vector<unsigned> done_;
@@ -58,11 +56,12 @@ class TaylorBatch {
   std::vector<int> orders_, powers_, own_;
   std::vector<double> factors_;
 
-  void sort_by_size(const Sites<Dim>& sites, std::span<const int> anchors, const Stencils& stencils,
-                    int needed);
-  /// Calls treat(part) with parts of by_size_ that share a size, padded.
+  /// The stencils of at least `needed` nodes, the anchor the first, by their sizes.
+  std::span<const SizeOrder::Entry> ordered(const Sites<Dim>& sites, std::span<const int> anchors,
+                                            const Stencils& stencils, int needed);
+  /// Calls treat(part, size) with parts of what is ordered that share a size, padded.
   template <class Treat>
-  void each_part(Treat treat);
+  static void each_part(std::span<const SizeOrder::Entry> ordered, Treat treat);
   void tabulate(const MonomialBasis<Dim>& basis, const Derivatives<Dim>& derivatives);
   /// What kernels read of the stencils of `chosen_`, whose sizes are `size` at most, with room for
   /// what they gather.
