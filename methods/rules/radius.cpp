@@ -1,3 +1,4 @@
+#include "methods/core/picked_stencils.hpp"
 #include "methods/core/registry.hpp"
 #include "methods/core/spacing.hpp"
 
@@ -21,13 +22,7 @@ class Radius final : public StencilRule<Dim> {
     }
     if (thin.empty()) return inside;
     const Stencils near = search.nearest(columns_of<Dim>(queries, thin), least, Ties::keep);
-    Stencils result;
-    std::size_t next = 0;
-    for (int i = 0; i < inside.size(); ++i) {
-      const bool is_thin = next < thin.size() && thin[next] == i;
-      result.push_back(is_thin ? near[static_cast<int>(next++)] : inside[i]);
-    }
-    return result;
+    return replaced(inside, thin, near);
   }
 
  private:

@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <vector>
 
+#include "methods/core/picked_stencils.hpp"
 #include "methods/core/registry.hpp"
 
 namespace strongpoint {
@@ -24,6 +27,74 @@ int sector_of(const Point<Dim>& offset) {
   return sector;
 }
 
+/// Chooses the nodes of one star after the other.
+template <int Dim>
+class StarPicker {
+ public:
+  StarPicker(const Sites<Dim>& sites, int per_sector) : sites_(sites), per_sector_(per_sector) {}
+
+  /// Appends the nearest nodes of each sector, then the nearest others while sectors lack nodes.
+  /// `near` is sorted by (distance, id). Returns whether no sector lacks any.
+  bool pick(int anchor, std::span<const int> near, std::vector<int>& nodes) {
+    const int own = sites_.anchor_node[anchor];
+    const std::size_t wanted = per_sector_ * (1 << Dim) + (own >= 0 ? 1 : 0);
+    std::array<int, 1 << Dim> taken{};
+    chosen_.clear();
+    unused_.clear();
+    for (std::size_t next = 0; next < near.size() && chosen_.size() < wanted;) {
+      next = take_ties(anchor, near, next);
+      for (const Candidate& tie : ties_) {
+        bool is_chosen = tie.node == own;
+        if (!is_chosen) {
+          int& of_sector =
+              taken[sector_of<Dim>(sites_.nodes.col(tie.node) - sites_.anchors.col(anchor))];
+          is_chosen = of_sector < per_sector_;
+          if (is_chosen) ++of_sector;
+        }
+        (is_chosen ? chosen_ : unused_).push_back(tie);
+      }
+    }
+    const bool is_full = chosen_.size() == wanted;
+    const std::size_t lacking = std::min(wanted - chosen_.size(), unused_.size());
+    chosen_.insert(chosen_.end(), unused_.begin(), unused_.begin() + static_cast<long>(lacking));
+    if (!std::is_sorted(chosen_.begin(), chosen_.end())) std::sort(chosen_.begin(), chosen_.end());
+    for (const Candidate& one : chosen_) nodes.push_back(one.node);
+    return is_full;
+  }
+
+ private:
+  struct Candidate {
+    double square;  ///< of the distance
+    int node;
+    friend bool operator<(const Candidate& a, const Candidate& b) {
+      return a.square < b.square || (a.square == b.square && a.node < b.node);
+    }
+  };
+
+  const Sites<Dim>& sites_;
+  const int per_sector_;
+  std::vector<Candidate> ties_, chosen_, unused_;
+
+  /// Fills `ties_` with the next node and those as far away (to the tie tolerance), in the order of
+  /// their ids, so that round-off does not choose among them. Returns where the next ones begin.
+  std::size_t take_ties(int anchor, std::span<const int> near, std::size_t next) {
+    ties_.assign(1, {squared_distance(sites_, anchor, near[next]), near[next]});
+    const double bound = ties_[0].square * (1 + 2 * tie_tolerance);
+    bool is_sorted = true;
+    for (++next; next < near.size(); ++next) {
+      const double square = squared_distance(sites_, anchor, near[next]);
+      if (square > bound) break;
+      is_sorted = is_sorted && near[next] > ties_.back().node;
+      ties_.push_back({square, near[next]});
+    }
+    if (!is_sorted) {
+      std::sort(ties_.begin(), ties_.end(),
+                [](const Candidate& a, const Candidate& b) { return a.node < b.node; });
+    }
+    return next;
+  }
+};
+
 template <int Dim>
 class Star final : public StencilRule<Dim> {
  public:
@@ -31,59 +102,34 @@ class Star final : public StencilRule<Dim> {
 
   Stencils select(const Sites<Dim>& sites, std::span<const int> anchors, const Method<Dim>&,
                   const NeighbourSearch<Dim>& search) const override {
-    constexpr int candidates_per_sector = 4;  // enough unless spacing is very uneven
-    const int total = per_sector_ * (1 << Dim);
-    const Stencils near =
-        nearest_to_anchors(sites, anchors, candidates_per_sector * total + 1, Ties::keep, search);
-    Stencils result;
+    std::vector<std::uint8_t> full(anchors.size(), 0);
+    Stencils stars = among(2, sites, anchors, search, full);
+    std::vector<int> open;  // places in `anchors` of those whose sectors reach farther, if at all
+    std::vector<int> ids;
     for (std::size_t i = 0; i < anchors.size(); ++i) {
-      const std::span<const int> nodes = near[static_cast<int>(i)];
-      result.push_back(choose(sites, anchors[i], by_rank(sites, anchors[i], nodes), total));
+      if (full[i] != 0) continue;
+      open.push_back(static_cast<int>(i));
+      ids.push_back(anchors[i]);
     }
-    return result;
+    if (open.empty()) return stars;
+    return replaced(stars, open, among(4, sites, ids, search, full));
   }
 
  private:
   int per_sector_;
 
-  /// Candidates with those at equal distances (to the tie tolerance) in the order of their ids, so
-  /// that round-off does not choose among them.
-  static std::vector<int> by_rank(const Sites<Dim>& sites, int anchor, std::span<const int> near) {
-    std::vector<int> nodes(near.begin(), near.end());
-    for (auto first = nodes.begin(); first != nodes.end();) {
-      const double bound = squared_distance(sites, anchor, *first) * (1 + 2 * tie_tolerance);
-      const auto last = std::find_if(first, nodes.end(), [&](int node) {
-        return squared_distance(sites, anchor, node) > bound;
-      });
-      std::sort(first, last);
-      first = last;
-    }
-    return nodes;
-  }
-
-  /// The nearest nodes of each sector, then the nearest unused ones while sectors lack nodes.
-  std::vector<int> choose(const Sites<Dim>& sites, int anchor, const std::vector<int>& near,
-                          int total) const {
-    std::array<int, 8> taken{};
-    std::vector<int> chosen;
-    std::vector<int> unused;
-    for (int node : near) {
-      const Point<Dim> offset = sites.nodes.col(node) - sites.anchors.col(anchor);
-      if (node == sites.anchor_node[anchor]) {
-        chosen.push_back(node);
-      } else if (taken[sector_of<Dim>(offset)] < per_sector_) {
-        ++taken[sector_of<Dim>(offset)];
-        chosen.push_back(node);
-      } else {
-        unused.push_back(node);
-      }
-    }
-    const std::size_t wanted = total + (sites.anchor_node[anchor] >= 0 ? 1 : 0);
-    for (std::size_t j = 0; j < unused.size() && chosen.size() < wanted; ++j) {
-      chosen.push_back(unused[j]);
-    }
-    sort_stencil(sites, anchor, chosen);
-    return chosen;
+  /// The stars of anchors, looked for among so many nodes a node that is wanted, and whether their
+  /// sectors are full. Four are enough unless spacing is very uneven.
+  Stencils among(int candidates, const Sites<Dim>& sites, std::span<const int> anchors,
+                 const NeighbourSearch<Dim>& search, std::vector<std::uint8_t>& full) const {
+    const int count = candidates * per_sector_ * (1 << Dim) + 1;
+    const Stencils near = nearest_to_anchors(sites, anchors, count, Ties::keep, search);
+    return pick_stencils(anchors.size(), [&] {
+      return [&, picker = StarPicker<Dim>(sites, per_sector_)](std::size_t i,
+                                                               std::vector<int>& nodes) mutable {
+        full[i] = picker.pick(anchors[i], near[static_cast<int>(i)], nodes) ? 1 : 0;
+      };
+    });
   }
 };
 
