@@ -70,14 +70,23 @@ double squared_distance(const Sites<Dim>& sites, int anchor, int node) {
   return sum;
 }
 
+/// A node and how far it is, ordered as stencils are.
+struct RankedNode {
+  double square;  ///< of the distance
+  int node;
+  friend bool operator<(const RankedNode& a, const RankedNode& b) {
+    return a.square < b.square || (a.square == b.square && a.node < b.node);
+  }
+};
+
 /// Sorts nodes by (distance from an anchor, node id).
 template <int Dim>
-void sort_stencil(const Sites<Dim>& sites, int anchor, std::vector<int>& nodes) {
-  std::sort(nodes.begin(), nodes.end(), [&](int a, int b) {
-    const double first = squared_distance(sites, anchor, a);
-    const double second = squared_distance(sites, anchor, b);
-    return first < second || (first == second && a < b);
-  });
+void sort_stencil(const Sites<Dim>& sites, int anchor, std::span<int> nodes) {
+  std::vector<RankedNode> ranked;
+  ranked.reserve(nodes.size());
+  for (int node : nodes) ranked.push_back({squared_distance(sites, anchor, node), node});
+  std::sort(ranked.begin(), ranked.end());
+  for (std::size_t j = 0; j < nodes.size(); ++j) nodes[j] = ranked[j].node;
 }
 
 }  // namespace strongpoint

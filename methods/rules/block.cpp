@@ -1,6 +1,10 @@
 #include <algorithm>
+#include <array>
+#include <span>
+#include <vector>
 
 #include "methods/core/error.hpp"
+#include "methods/core/picked_stencils.hpp"
 #include "methods/core/registry.hpp"
 
 namespace strongpoint {
@@ -30,38 +34,46 @@ class Block final : public StencilRule<Dim> {
     const int least = 2 * ((order + 1) / 2) + 1;
     const int width = width_ > 0 ? width_ : least;
     const int at_edges = ends_ == Ends::shift ? width : std::min(width, least);
-    Stencils result;
-    for (int anchor : anchors) result.push_back(block_at(sites, anchor, width, at_edges));
-    return result;
+    return pick_stencils(anchors.size(), [&] {
+      return [&](std::size_t i, std::vector<int>& nodes) {
+        append_block(sites, anchors[i], width, at_edges, nodes);
+      };
+    });
   }
 
  private:
   int width_;  ///< 0: what the method's order needs
   Ends ends_;
 
-  static std::vector<int> block_at(const Sites<Dim>& sites, int anchor, int width, int at_edges) {
+  static void append_block(const Sites<Dim>& sites, int anchor, int width, int at_edges,
+                           std::vector<int>& nodes) {
     const auto& shape = sites.block->shape;
     int node = sites.anchor_node[anchor];
     if (node < 0) throw SkipCase("the rule 'block' needs anchors that are nodes");
     std::array<int, Dim> first{};
     std::array<int, Dim> count{};
+    std::size_t size = 1;
     for (int c = Dim - 1; c >= 0; --c) {
       const int index = node % shape[c];
       node /= shape[c];
       const int centred = 2 * std::min(index, shape[c] - 1 - index) + 1;
       count[c] = std::min({width, std::max(centred, at_edges), shape[c]});
       first[c] = std::clamp(index - count[c] / 2, 0, shape[c] - count[c]);
+      size *= count[c];
     }
-    std::vector<int> nodes{0};
-    for (int c = 0; c < Dim; ++c) {
-      std::vector<int> next;
-      for (int base : nodes) {
-        for (int i = 0; i < count[c]; ++i) next.push_back(base * shape[c] + first[c] + i);
+    const std::size_t before = nodes.size();
+    for (std::size_t j = 0; j < size; ++j) {
+      int id = 0;
+      std::size_t left = j;
+      std::size_t lines = size;
+      for (int c = 0; c < Dim; ++c) {
+        lines /= count[c];
+        id = id * shape[c] + first[c] + static_cast<int>(left / lines);
+        left %= lines;
       }
-      nodes = std::move(next);
+      nodes.push_back(id);
     }
-    sort_stencil(sites, anchor, nodes);
-    return nodes;
+    sort_stencil(sites, anchor, std::span(nodes).subspan(before));
   }
 };
 

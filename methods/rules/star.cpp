@@ -43,7 +43,7 @@ class StarPicker {
     unused_.clear();
     for (std::size_t next = 0; next < near.size() && chosen_.size() < wanted;) {
       next = take_ties(anchor, near, next);
-      for (const Candidate& tie : ties_) {
+      for (const RankedNode& tie : ties_) {
         bool is_chosen = tie.node == own;
         if (!is_chosen) {
           int& of_sector =
@@ -58,22 +58,14 @@ class StarPicker {
     const std::size_t lacking = std::min(wanted - chosen_.size(), unused_.size());
     chosen_.insert(chosen_.end(), unused_.begin(), unused_.begin() + static_cast<long>(lacking));
     if (!std::is_sorted(chosen_.begin(), chosen_.end())) std::sort(chosen_.begin(), chosen_.end());
-    for (const Candidate& one : chosen_) nodes.push_back(one.node);
+    for (const RankedNode& one : chosen_) nodes.push_back(one.node);
     return is_full;
   }
 
  private:
-  struct Candidate {
-    double square;  ///< of the distance
-    int node;
-    friend bool operator<(const Candidate& a, const Candidate& b) {
-      return a.square < b.square || (a.square == b.square && a.node < b.node);
-    }
-  };
-
   const Sites<Dim>& sites_;
   const int per_sector_;
-  std::vector<Candidate> ties_, chosen_, unused_;
+  std::vector<RankedNode> ties_, chosen_, unused_;
 
   /// Fills `ties_` with the next node and those as far away (to the tie tolerance), in the order of
   /// their ids, so that round-off does not choose among them. Returns where the next ones begin.
@@ -89,7 +81,7 @@ class StarPicker {
     }
     if (!is_sorted) {
       std::sort(ties_.begin(), ties_.end(),
-                [](const Candidate& a, const Candidate& b) { return a.node < b.node; });
+                [](const RankedNode& a, const RankedNode& b) { return a.node < b.node; });
     }
     return next;
   }
