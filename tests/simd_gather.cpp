@@ -157,7 +157,8 @@ TEST(SimdGather, TellsNodesApartThatDifferInOneDirection) {
   const Point<2> along = Point<2>(0.7548776662466927, -1).normalized();
   const Point<2> across(-along[1], along[0]);
   for (int j = 1; j < 16; ++j) {
-    const double angle = 0.19 * ((j + 1) / 2);
+    const int pair = (j + 1) / 2;
+    const double angle = 0.19 * pair;
     nodes.col(j) = (j % 2 == 1 ? -1 : 1) * std::sin(angle) * along + std::cos(angle) * across;
   }
   Stencils stencils;
