@@ -39,6 +39,21 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(row["verdict"], "failed")
         self.assertIn("row 7 differs", bench.line_of(row))
 
+    def test_of_several_passes_each_side_keeps_its_least_time(self):
+        goals = {}
+        for subject, rival in ((2e-6, 9e-6), (1e-6, 12e-6), (3e-6, 8e-6)):
+            bench.keep_least(goals, measured(rival / subject, subject=subject, rival=rival))
+        (kept,) = goals.values()
+        self.assertEqual((kept["subject"], kept["rival"], kept["ratio"]), (1e-6, 8e-6, 8.0))
+
+    def test_answers_that_differ_in_any_pass_are_told(self):
+        wrong = {"name": "goal/knn/2d/iterations:1/manual_time", "error_occurred": True, "error_message": "row 7 differs"}
+        for order in ((measured(7.5), wrong), (wrong, measured(7.5))):
+            goals = {}
+            for one in order:
+                bench.keep_least(goals, dict(one))
+            self.assertEqual([bench.judged(kept)["verdict"] for kept in goals.values()], ["failed"])
+
     def test_the_tables_go_where_they_are_wanted(self):
         with tempfile.TemporaryDirectory() as directory:
             output = pathlib.Path(directory) / "elsewhere"
