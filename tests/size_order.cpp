@@ -1,7 +1,9 @@
 // Stencils ordered by size against the library's sort.
 #include "methods/core/size_order.hpp"
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
