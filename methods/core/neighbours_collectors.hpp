@@ -7,21 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "methods/core/candidate.hpp"
 #include "methods/core/neighbours.hpp"
 
 namespace strongpoint {
-
-/// A node met during a search; ordered by (distance, node id).
-struct Candidate {
-  double squared_distance;
-  int node;
-
-  // Written out, since distances are never NaN: a three-way comparison would provide for it.
-  bool operator<(const Candidate& other) const {
-    return squared_distance < other.squared_distance ||
-           (squared_distance == other.squared_distance && node < other.node);
-  }
-};
 
 /// Squared distance, summed over the components in order: every engine uses this one formula, so
 /// that their results agree bitwise.

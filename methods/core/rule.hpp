@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "methods/core/candidate.hpp"
 #include "methods/core/method.hpp"
 #include "methods/core/neighbours.hpp"
 
@@ -70,19 +71,10 @@ double squared_distance(const Sites<Dim>& sites, int anchor, int node) {
   return sum;
 }
 
-/// A node and how far it is, ordered as stencils are.
-struct RankedNode {
-  double square;  ///< of the distance
-  int node;
-  friend bool operator<(const RankedNode& a, const RankedNode& b) {
-    return a.square < b.square || (a.square == b.square && a.node < b.node);
-  }
-};
-
 /// Sorts nodes by (distance from an anchor, node id).
 template <int Dim>
 void sort_stencil(const Sites<Dim>& sites, int anchor, std::span<int> nodes) {
-  std::vector<RankedNode> ranked;
+  std::vector<Candidate> ranked;
   ranked.reserve(nodes.size());
   for (int node : nodes) ranked.push_back({squared_distance(sites, anchor, node), node});
   std::sort(ranked.begin(), ranked.end());

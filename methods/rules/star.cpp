@@ -43,7 +43,7 @@ class StarPicker {
     unused_.clear();
     for (std::size_t next = 0; next < near.size() && chosen_.size() < wanted;) {
       next = take_ties(anchor, near, next);
-      for (const RankedNode& tie : ties_) {
+      for (const Candidate& tie : ties_) {
         bool is_chosen = tie.node == own;
         if (!is_chosen) {
           int& of_sector =
@@ -58,20 +58,20 @@ class StarPicker {
     const std::size_t lacking = std::min(wanted - chosen_.size(), unused_.size());
     chosen_.insert(chosen_.end(), unused_.begin(), unused_.begin() + static_cast<long>(lacking));
     if (!std::is_sorted(chosen_.begin(), chosen_.end())) std::sort(chosen_.begin(), chosen_.end());
-    for (const RankedNode& one : chosen_) nodes.push_back(one.node);
+    for (const Candidate& one : chosen_) nodes.push_back(one.node);
     return is_full;
   }
 
  private:
   const Sites<Dim>& sites_;
   const int per_sector_;
-  std::vector<RankedNode> ties_, chosen_, unused_;
+  std::vector<Candidate> ties_, chosen_, unused_;
 
   /// Fills `ties_` with the next node and those as far away (to the tie tolerance), in the order of
   /// their ids, so that round-off does not choose among them. Returns where the next ones begin.
   std::size_t take_ties(int anchor, std::span<const int> near, std::size_t next) {
     ties_.assign(1, {squared_distance(sites_, anchor, near[next]), near[next]});
-    const double bound = ties_[0].square * (1 + 2 * tie_tolerance);
+    const double bound = ties_[0].squared_distance * (1 + 2 * tie_tolerance);
     bool is_sorted = true;
     for (++next; next < near.size(); ++next) {
       const double square = squared_distance(sites_, anchor, near[next]);
@@ -81,7 +81,7 @@ class StarPicker {
     }
     if (!is_sorted) {
       std::sort(ties_.begin(), ties_.end(),
-                [](const RankedNode& a, const RankedNode& b) { return a.node < b.node; });
+                [](const Candidate& a, const Candidate& b) { return a.node < b.node; });
     }
     return next;
   }
@@ -94,7 +94,7 @@ class Star final : public StencilRule<Dim> {
 
   Stencils select(const Sites<Dim>& sites, std::span<const int> anchors, const Method<Dim>&,
                   const NeighbourSearch<Dim>& search) const override {
-    std::vector<std::uint8_t> full(anchors.size(), 0);
+    std::vector<std::uint8_t> full;
     Stencils stars = among(2, sites, anchors, search, full);
     std::vector<int> open;  // places in `anchors` of those whose sectors reach farther, if at all
     std::vector<int> ids;
@@ -104,18 +104,20 @@ class Star final : public StencilRule<Dim> {
       ids.push_back(anchors[i]);
     }
     if (open.empty()) return stars;
-    return replaced(stars, open, among(4, sites, ids, search, full));
+    std::vector<std::uint8_t> filled;
+    return replaced(stars, open, among(4, sites, ids, search, filled));
   }
 
  private:
   int per_sector_;
 
-  /// The stars of anchors, looked for among so many nodes a node that is wanted, and whether their
-  /// sectors are full. Four are enough unless spacing is very uneven.
+  /// The stars of anchors, looked for among so many nodes a node that is wanted; fills whether
+  /// their sectors are full. Four are enough unless spacing is very uneven.
   Stencils among(int candidates, const Sites<Dim>& sites, std::span<const int> anchors,
                  const NeighbourSearch<Dim>& search, std::vector<std::uint8_t>& full) const {
     const int count = candidates * per_sector_ * (1 << Dim) + 1;
     const Stencils near = nearest_to_anchors(sites, anchors, count, Ties::keep, search);
+    full.assign(anchors.size(), 0);
     return pick_stencils(anchors.size(), [&] {
       return [&, picker = StarPicker<Dim>(sites, per_sector_)](std::size_t i,
                                                                std::vector<int>& nodes) mutable {

@@ -26,7 +26,8 @@ inline constexpr double distinct_squares = 2e-10;
 inline constexpr double coincident_distance = 1e-10;
 
 /// A number of a node that changes by at most `mark_growth` times the largest change of its
-/// coordinates, and that tells the nodes of a lattice apart: its factors are irrational.
+/// coordinates, and that tells the nodes of a lattice apart: no sum of multiples of its factors is
+/// zero. They are powers of the inverse plastic number, the root of x^3 = x + 1.
 template <int Dim>
 [[gnu::always_inline]] inline Pack mark_of(const Pack* z) {
   Pack mark = z[0];
