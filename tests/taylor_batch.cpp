@@ -133,9 +133,12 @@ TEST(TaylorBatch, GivesAnAnchorTheSameBitsInAnyCompany) {
   });
 }
 
-TEST(TaylorBatch, WritesTheSameBitsPastTheCaches) {
-  const auto scene = make_scene<2>("gfdm", "perturbed[amount=0.3]", 230, 1);
-  const auto derivatives = Derivatives<2>::between_orders(1, 2);
+/// The level makes rows of as many weights as are streamed, half of them fewer.
+template <int Dim>
+void writes_the_same_past_the_caches(int level) {
+  SCOPED_TRACE(Dim);
+  const auto scene = make_scene<Dim>("gfdm", "perturbed[amount=0.3]", level, 1);
+  const auto derivatives = Derivatives<Dim>::between_orders(1, 2);
   const Stencils half = every(scene.stencils, 2);
   on_every_path([&] {
     const Weights all = scene.method->weights(scene.sites, scene.stencils, derivatives);
@@ -148,6 +151,11 @@ TEST(TaylorBatch, WritesTheSameBitsPastTheCaches) {
     }
     EXPECT_EQ(others, 0);
   });
+}
+
+TEST(TaylorBatch, WritesTheSameBitsPastTheCaches) {
+  writes_the_same_past_the_caches<2>(230);
+  writes_the_same_past_the_caches<3>(25);  // results of a group fill more than a page
 }
 
 TEST(TaylorBatch, GivesTheSameBitsOnAnyNumberOfThreads) {

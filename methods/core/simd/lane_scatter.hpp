@@ -1,8 +1,18 @@
 #pragma once
 
+#include <cstdint>
+
 #include "methods/core/simd/pack.hpp"
 
 namespace strongpoint::STRONGPOINT_SIMD_PATH {
+
+/// Writes rows r to r + lanes - 1 as `scatter_lanes` does, of all lanes.
+inline void scatter_block(const Pack* rows, int r, double* const* to) {
+  Pack turned[lanes];
+  transpose(rows + r, turned);
+#pragma GCC unroll 8
+  for (int lane = 0; lane < lanes; ++lane) store(to[lane] + r, turned[lane]);
+}
 
 /// Writes lane l of rows[0], rows[1], ... to to[l][0], to[l][1], ..., `count` of them, for the
 /// lanes whose bits are set.
@@ -19,17 +29,68 @@ inline void scatter_lanes(const Pack* rows, int count, double* const* to, unsign
   }
   for (int begin = 0; begin < count; begin += lanes) {
     const int r = begin + lanes <= count ? begin : count - lanes;  // the last ones overlap
-    Pack turned[lanes];
-    transpose(rows + r, turned);
     if (bits == every_lane) {
-#pragma GCC unroll 8
-      for (int lane = 0; lane < lanes; ++lane) store(to[lane] + r, turned[lane]);
+      scatter_block(rows, r, to);
       continue;
     }
+    Pack turned[lanes];
+    transpose(rows + r, turned);
     for (int lane = 0; lane < lanes; ++lane) {
       if ((bits >> lane & 1U) != 0) store(to[lane] + r, turned[lane]);
     }
   }
+}
+
+/// Numbers from a place to the end of its page.
+inline int left_in_page(const double* place) {
+  constexpr std::uintptr_t page = 4096;
+  return static_cast<int>((page - reinterpret_cast<std::uintptr_t>(place) % page) / sizeof(double));
+}
+
+/// The first of the blocks of `lanes` rows, from row `begin` on, that some lane would store across
+/// two pages; `end` if none.
+inline int first_across_pages(double* const* to, int begin, int end) {
+  int first = end;
+#pragma GCC unroll 8
+  for (int lane = 0; lane < lanes; ++lane) {
+    const int left = left_in_page(to[lane] + begin);
+    const int block = begin + left / lanes * lanes;
+    // A page holds whole blocks.
+    if (left % lanes != 0 && block < first) first = block;
+  }
+  return first;
+}
+
+/// Writes rows r to r + lanes - 1, in two parts where a pack would lie across two pages.
+inline void scatter_block_by_page(const Pack* rows, int r, double* const* to) {
+  Pack turned[lanes];
+  transpose(rows + r, turned);
+#pragma GCC unroll 8
+  for (int lane = 0; lane < lanes; ++lane) {
+    double* const part = to[lane] + r;
+    const int left = left_in_page(part);
+    if (left >= lanes) {
+      store(part, turned[lane]);
+      continue;
+    }
+    double buffer[lanes];
+    store(buffer, turned[lane]);
+    for (int i = 0; i < left; ++i) part[i] = buffer[i];
+    for (int i = left; i < lanes; ++i) part[i] = buffer[i];
+  }
+}
+
+/// The same as `scatter_lanes` of all lanes for what is read again soon: on some processors a store
+/// across two pages then takes the time of a hundred others.
+inline void scatter_by_page(const Pack* rows, int count, double* const* to) {
+  if (count < lanes) return scatter_lanes(rows, count, to, every_lane);
+  const int whole = count - count % lanes;
+  for (int r = 0; r < whole; r += lanes) {
+    const int across = first_across_pages(to, r, whole);
+    for (; r < across; r += lanes) scatter_block(rows, r, to);
+    if (r < whole) scatter_block_by_page(rows, r, to);
+  }
+  if (whole < count) scatter_block_by_page(rows, count - lanes, to);
 }
 
 /// Copies numbers of eight bytes that are not read again soon, past the caches.

@@ -259,8 +259,9 @@ class TaylorGroup {
     double* parts[lanes];
     for (int lane = 0; lane < lanes; ++lane)
       parts[lane] = piece + static_cast<long>(lane) * entries;
-    scatter_lanes(rows_, entries, parts, every_lane);
-    if (streamed) waiting_ = {piece, to, static_cast<long>(lanes) * entries};
+    if (!streamed) return scatter_lanes(rows_, entries, parts, every_lane);
+    scatter_by_page(rows_, entries, parts);
+    waiting_ = {piece, to, static_cast<long>(lanes) * entries};
   }
 };
 
