@@ -26,6 +26,13 @@ TEST(KeptMemory, IsTakenAgainByArraysOfTheSameSize) {
   release_kept_memory();
 }
 
+TEST(KeptMemory, BeginsWithArraysOfAMegabyte) {
+  constexpr std::uintptr_t huge_page = std::uintptr_t{1} << 21;
+  void* const memory = allocate_large(std::size_t{1} << 20);
+  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(memory) % huge_page, 0U);
+  free_large(memory);
+}
+
 TEST(KeptMemory, HoldsWhatIsWrittenWhateverTheSizes) {
   LargeArray<std::int64_t> numbers;
   for (std::int64_t i = 0; i < 5000000; ++i) numbers.push_back(i);  // grows through many blocks

@@ -18,8 +18,9 @@ namespace {
 /// Size of a huge page of most systems.
 constexpr std::size_t huge_page = std::size_t{1} << 21;
 
-/// Below this, ordinary memory is reused by the allocator more often than it is touched first.
-constexpr std::size_t least_bytes = 2 * huge_page;
+/// Below this, the general allocator reuses memory more often than it hands pages back and has them
+/// cleared anew.
+constexpr std::size_t least_bytes = huge_page / 2;
 
 /// What may lie idle. The arrays of a scene of 1e5 nodes fit in.
 constexpr std::size_t most_kept = checks_addresses ? 0 : std::size_t{1} << 28;
@@ -83,7 +84,7 @@ class BlockStore {
     most_used_ = used_bytes_;
   }
 
-  BlockStore() { kept_.reserve(most_kept / least_bytes); }
+  BlockStore() { kept_.reserve(most_kept / huge_page); }
 
  private:
   struct Block {
