@@ -8,7 +8,7 @@
 
 namespace strongpoint {
 
-/// Memory of `bytes`, not cleared: of a megabyte or more it lies on huge pages, where the
+/// Memory of `bytes`, not cleared: of a megabyte or more it fills whole huge pages, where the
 /// system has them, which take a tenth of the time to touch first. Throws std::bad_alloc.
 void* allocate_large(std::size_t bytes);
 
